@@ -1,0 +1,141 @@
+"""What can be observed on the track in a given state."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+
+from .beam_element import FloatArray
+from .bending import bending_moment
+from .contact_point import RailPoint
+from .eigensolver import ComplexArray
+from .reduction import ReducedTrack
+from .track_state import TrackState
+
+
+class Observation:
+    """Displacements, forces and bending moments of the track, each worked out when asked for.
+
+    Parameters
+    ----------
+    track : ReducedTrack
+        Modes and residual flexibility.
+    state : TrackState
+        Must not change while the observation is in use.
+    wheels, gauges : sequence of RailPoint
+        Where the wheels stand and where bending moments are wanted.
+    """
+
+    def __init__(
+        self,
+        track: ReducedTrack,
+        state: TrackState,
+        *,
+        wheels: Sequence[RailPoint],
+        gauges: Sequence[RailPoint],
+    ) -> None:
+        self._track, self._state = track, state
+        self._wheels, self._gauges = wheels, gauges
+
+    @cached_property
+    def rail_velocity(self) -> FloatArray:
+        """Rate of change of the rail displacement under each wheel, following it [m/s].
+
+        ``u' = du/dt + v du/dx``, shape (wheels,).
+        """
+        velocity = np.empty(len(self._wheels))
+        for i, (wheel, speed) in enumerate(zip(self._wheels, self._state.speed, strict=True)):
+            shape, flexibility = self._track.shape[wheel.rows], self._track.flexibility[wheel.rows]
+            displacement = np.real(shape @ self._modal) + flexibility @ self._forces
+            rate = np.real(shape @ self._modal_rate) + flexibility @ self._force_rates
+            velocity[i] = wheel.shape @ rate + speed * (wheel.slope @ displacement)
+        return velocity
+
+    @cached_property
+    def sleeper_displacement(self) -> FloatArray:
+        """Displacement of every sleeper [m], shape (supports,)."""
+        return self._displacement(self._track.ballast_rows)
+
+    @cached_property
+    def ballast_force(self) -> FloatArray:
+        """Compression of the ballast under every sleeper [N], shape (supports,)."""
+        parameters = self._track.parameters
+        return (
+            parameters.ballast_stiffness * self.sleeper_displacement
+            + parameters.ballast_damping * self._rate(self._track.ballast_rows)
+            + self._state.increment[: parameters.supports]
+        )
+
+    @cached_property
+    def pad_force(self) -> FloatArray:
+        """Compression of every rail pad [N], shape (supports,)."""
+        parameters = self._track.parameters
+        return (
+            parameters.pad_stiffness * self._displacement(self._track.pad_rows)
+            + parameters.pad_damping * self._rate(self._track.pad_rows)
+            + self._state.increment[parameters.supports :]
+        )
+
+    @cached_property
+    def gauge_moment(self) -> FloatArray:
+        """Bending moment at every gauge [N m], sagging positive, shape (gauges,)."""
+        return self._moments(self._gauges)
+
+    @cached_property
+    def wheel_moment(self) -> FloatArray:
+        """Bending moment under every wheel [N m], sagging positive, shape (wheels,)."""
+        return self._moments(self._wheels)
+
+    @cached_property
+    def _modal(self) -> ComplexArray:
+        return self._track.weight * self._state.modal
+
+    @cached_property
+    def _modal_rate(self) -> ComplexArray:
+        state, track = self._state, self._track
+        return track.weight * (track.eigenvalues * state.modal + state.load)
+
+    @cached_property
+    def _forces(self) -> FloatArray:
+        """Forces on the coordinates, shape (n,)."""
+        forces = np.zeros(len(self._track.flexibility))
+        forces[self._track.ballast_rows.start :] = -self._state.increment
+        for wheel, force in zip(self._wheels, self._state.force, strict=True):
+            forces[wheel.rows] += force * wheel.shape
+        return forces
+
+    @cached_property
+    def _force_rates(self) -> FloatArray:
+        """Rate of change of the forces on the coordinates, the wheels' motion included."""
+        state = self._state
+        rates = np.zeros(len(self._track.flexibility))
+        rates[self._track.ballast_rows.start :] = -state.increment_rate
+        for i, wheel in enumerate(self._wheels):
+            rates[wheel.rows] += state.force_rate[i] * wheel.shape
+            rates[wheel.rows] += state.force[i] * state.speed[i] * wheel.slope
+        return rates
+
+    def _displacement(self, rows: slice) -> FloatArray:
+        modal = np.real(self._track.shape[rows] @ self._modal)
+        return modal + self._track.flexibility[rows] @ self._forces
+
+    def _rate(self, rows: slice) -> FloatArray:
+        modal = np.real(self._track.shape[rows] @ self._modal_rate)
+        return modal + self._track.flexibility[rows] @ self._force_rates
+
+    def _moments(self, points: Sequence[RailPoint]) -> FloatArray:
+        loads = list(zip(self._wheels, self._state.force.tolist(), strict=True))
+        return np.array(
+            [
+                bending_moment(
+                    self._track,
+                    point,
+                    modal_state=self._modal,
+                    forces=self._forces,
+                    loads=loads,
+                )
+                for point in points
+            ]
+        )

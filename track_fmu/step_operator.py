@@ -1,0 +1,175 @@
+"""One step of the track as a small affine map of the contact forces.
+
+Over a step of given size and wheel positions the displacements under the wheels and at the
+state-dependent components depend on the contact forces at its end, ``F``, and on the force
+increments there, ``g``, through small matrices only. They are set up once a step, so that a master
+that repeats the step with other forces pays for a few small products, not for all modes.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .beam_element import FloatArray
+from .components import ActiveComponents
+from .contact_point import RailPoint, locate
+from .eigensolver import ComplexArray
+from .exponential_step import ExponentialStep
+from .reduction import ReducedTrack
+from .track_state import TrackState
+
+RELATIVE_TOLERANCE = 1e-13
+ABSOLUTE_TOLERANCE = 1e-9  # N
+MAX_SWEEPS = 60
+
+
+class StepOperator:
+    """The step from a state to given wheel positions, for any contact forces.
+
+    Parameters
+    ----------
+    state : TrackState
+        Where the step starts; not kept.
+    track : ReducedTrack
+        Modes and residual flexibility.
+    active : ActiveComponents
+        Components whose force increments are accounted for.
+    exponential : ExponentialStep
+        Coefficients of the step size.
+    step_size : float
+        Duration [s].
+    positions : (wheels,) float array
+        Of the wheels at the end of the step [m].
+    linear : bool
+        Whether positions and forces change on straight lines from the last ones, or jump at the
+        start of the step and are held.
+    """
+
+    def __init__(
+        self,
+        state: TrackState,
+        track: ReducedTrack,
+        active: ActiveComponents,
+        exponential: ExponentialStep,
+        *,
+        step_size: float,
+        positions: FloatArray,
+        linear: bool,
+    ) -> None:
+        self.step_size, self.linear = step_size, linear
+        self.positions = positions.copy()
+        self.wheels: list[RailPoint] = [locate(track.parameters, float(x)) for x in positions]
+        self._active = active
+        self._start = state.flat.copy()
+        self._contact: ComplexArray = np.array([w.shape @ track.shape[w.rows] for w in self.wheels])
+        self._end = exponential.end
+        self._contact_end = exponential.end if linear else exponential.start + exponential.end
+        load = state.load if linear else self._increment_load(state, track)
+        self._free: ComplexArray = exponential.decay * state.modal + exponential.start * load
+        self._set_up_displacements(track)
+        self._set_up_rates(track)
+
+    def serves(
+        self, state: TrackState, step_size: float, positions: FloatArray, linear: bool
+    ) -> bool:
+        """Whether this operator was made for exactly this step."""
+        return (
+            step_size == self.step_size
+            and linear == self.linear
+            and np.array_equal(positions, self.positions)
+            and np.array_equal(state.flat, self._start)
+        )
+
+    def apply(self, state: TrackState, forces: FloatArray) -> None:
+        """Move the state to the end of the step under the contact forces there, shape (wheels,)."""
+        increment = self._solve_increments(state.increment[self._active.number], forces)
+        contact_load = forces @ self._contact
+        increment_load = increment @ self._active.shape
+        state.modal[:] = (
+            self._free + self._contact_end * contact_load - self._end * increment_load
+        )
+        state.load[:] = contact_load - increment_load
+        state.displacement[:] = (
+            self._free_contact
+            + self._contact_contact @ forces
+            - self._contact_active @ increment
+        )
+        new_increment = np.zeros_like(state.increment)
+        new_increment[self._active.number] = increment
+        state.increment_rate[:] = (new_increment - state.increment) / self.step_size
+        state.increment[:] = new_increment
+        if self.linear:
+            state.speed[:] = (self.positions - state.position) / self.step_size
+            state.force_rate[:] = (forces - state.force) / self.step_size
+        else:
+            state.speed[:] = 0.0
+            state.force_rate[:] = 0.0
+        state.position[:] = self.positions
+        state.force[:] = forces
+
+    def _increment_load(self, state: TrackState, track: ReducedTrack) -> ComplexArray:
+        """Modal load of the force increments alone, at the start of a step with held inputs."""
+        first = track.ballast_rows.start
+        held: ComplexArray = state.increment @ track.shape[first : first + len(state.increment)]
+        return -held
+
+    def _set_up_displacements(self, track: ReducedTrack) -> None:
+        """Displacements under the wheels and at the components: free, and per force at the end."""
+        contact, active = self._contact, self._active
+        weighted_contact, weighted_active = contact * track.weight, active.shape * track.weight
+        self._free_contact: FloatArray = np.real(weighted_contact @ self._free)
+        self._free_active: FloatArray = np.real(weighted_active @ self._free)
+        driven_contact = (contact * self._contact_end).T
+        driven_active = (active.shape * self._end).T
+        residual = np.array([track.flexibility[:, w.rows] @ w.shape for w in self.wheels]).T
+        residual_contact = np.array([w.shape @ residual[w.rows] for w in self.wheels])
+        residual_active = residual[active.rows]
+        self._contact_contact: FloatArray = (
+            np.real(weighted_contact @ driven_contact) + residual_contact
+        )
+        self._contact_active: FloatArray = (
+            np.real(weighted_contact @ driven_active) + residual_active.T
+        )
+        self._active_contact: FloatArray = (
+            np.real(weighted_active @ driven_contact) + residual_active
+        )
+        self._active_active: FloatArray = (
+            np.real(weighted_active @ driven_active) + active.flexibility
+        )
+
+    def _set_up_rates(self, track: ReducedTrack) -> None:
+        """Deformation rates of the components: free, and per force at the end.
+
+        The rate is ``Re sum w rho (lambda q + Q)``: the second term vanishes for the complete set
+        of modes only.
+        """
+        rates = self._active.shape * track.weight
+        driven = rates * track.eigenvalues
+        self._free_rate: FloatArray = np.real(driven @ self._free)
+        self._rate_contact: FloatArray = np.real(
+            (driven * self._contact_end + rates) @ self._contact.T
+        )
+        self._rate_active: FloatArray = np.real((driven * self._end + rates) @ self._active.shape.T)
+
+    def _solve_increments(self, guess: FloatArray, forces: FloatArray) -> FloatArray:
+        """Fixed point of the force increments at the end of the step, shape (components,)."""
+        if self._active.count == 0:
+            return guess
+        deformation = self._free_active + self._active_contact @ forces
+        rate = self._free_rate + self._rate_contact @ forces
+        increment = guess
+        for _ in range(MAX_SWEEPS):
+            previous = increment
+            increment = self._active.force(
+                deformation - self._active_active @ previous, rate - self._rate_active @ previous
+            )
+            change = float(np.max(np.abs(increment - previous)))
+            scale = float(np.max(np.abs(increment)))
+            if change <= RELATIVE_TOLERANCE * scale + ABSOLUTE_TOLERANCE:
+                return increment
+            if not np.isfinite(change):
+                break
+        raise RuntimeError(
+            f"track: the state-dependent forces did not converge in {MAX_SWEEPS} sweeps over a "
+            f"step of {self.step_size:.3g} s; use a shorter step"
+        )

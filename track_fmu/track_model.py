@@ -1,0 +1,206 @@
+"""The track as a dynamic model: contact forces at moving positions in, displacements out."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from dataclasses import dataclass
+
+import numpy as np
+
+from .beam_element import FloatArray
+from .component_law import ComponentLaw
+from .components import Components
+from .contact_point import RailPoint, locate
+from .exponential_step import ExponentialStep, exponential_step
+from .observation import Observation
+from .reduction import ReducedTrack
+from .static_start import static_start
+from .step_operator import StepOperator
+from .supports import nearest_supports
+from .track_state import TrackState
+
+REMEMBERED_STEP_SIZES = 64
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrackOptions:
+    """How the track is loaded and observed.
+
+    Parameters
+    ----------
+    wheels : int
+        Number of wheels, at least 1.
+    supports_per_wheel : int
+        Supports around each wheel whose pads and ballast are state-dependent.
+    initial_speed : float
+        Speed with which the static deflection moves along at the start [m/s].
+    gauges : tuple of float
+        Track positions at which the bending moment is observed [m].
+    """
+
+    wheels: int = 2
+    supports_per_wheel: int = 6
+    initial_speed: float = 0.0
+    gauges: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("wheels", "supports_per_wheel"):
+            if getattr(self, name) < 1:
+                raise ValueError(f"track: {name} = {getattr(self, name)!r} must be at least 1")
+        if not np.isfinite(self.initial_speed):
+            raise ValueError(f"track: initial_speed = {self.initial_speed!r} m/s must be finite")
+
+
+class TrackModel:
+    """Complex modal track with state-dependent pads and ballast under moving contact forces.
+
+    Downwards positive; contact forces press the rail down. `start` puts the track in nonlinear
+    static equilibrium, `step` moves it on, `observe` shows it; everything it knows between two
+    steps is in `state`.
+
+    Parameters
+    ----------
+    track : ReducedTrack
+        Modes and residual flexibility.
+    options : TrackOptions
+        Wheels, supports, gauges.
+    ballast, pad : ComponentLaw or None
+        State-dependent force laws; None is linear.
+    """
+
+    def __init__(
+        self,
+        track: ReducedTrack,
+        options: TrackOptions,
+        *,
+        ballast: ComponentLaw | None = None,
+        pad: ComponentLaw | None = None,
+    ) -> None:
+        self.track = track
+        self.options = options
+        self._gauges = [locate(track.parameters, position) for position in options.gauges]
+        self._components = Components(track, ballast=ballast, pad=pad)
+        self._state = TrackState(
+            wheels=options.wheels,
+            components=self._components.count,
+            modes=len(track.eigenvalues),
+        )
+        self._exponentials: OrderedDict[float, ExponentialStep] = OrderedDict()
+        self._operator: StepOperator | None = None
+
+    @property
+    def state(self) -> FloatArray:
+        """Copy of the complete state; assigning one back restores the model bit for bit."""
+        return self._state.flat.copy()
+
+    @state.setter
+    def state(self, saved: FloatArray) -> None:
+        if saved.shape != self._state.flat.shape:
+            raise ValueError(
+                f"track: a state of {saved.size} numbers does not fit this track, whose state "
+                f"has {self._state.flat.size}; it was saved with other parameters"
+            )
+        self._state.flat[:] = saved
+
+    @property
+    def rail_displacement(self) -> FloatArray:
+        """Rail displacement under each wheel [m], shape (wheels,)."""
+        return self._state.displacement.copy()
+
+    def start(self, positions: FloatArray, forces: FloatArray) -> None:
+        """Set the static equilibrium under the given wheels, moving at the initial speed.
+
+        Parameters
+        ----------
+        positions, forces : (wheels,) float array
+            Track positions [m] and contact forces [N].
+
+        Raises
+        ------
+        ValueError
+            If a wheel is not on the track or a force is not a number.
+        RuntimeError
+            If the equilibrium is not found.
+        """
+        self._check_forces(forces)
+        static_start(
+            self._state,
+            self.track,
+            self._components.active(self._nearest(positions)),
+            wheels=self._locate(positions),
+            forces=forces,
+            speed=self.options.initial_speed,
+        )
+        self._state.position[:] = positions
+
+    def step(
+        self, step_size: float, positions: FloatArray, forces: FloatArray, *, linear: bool = True
+    ) -> None:
+        """Advance by one step.
+
+        Parameters
+        ----------
+        step_size : float
+            Any positive duration [s].
+        positions, forces : (wheels,) float array
+            Track positions [m] and contact forces [N]: at the end of the step, reached on a
+            straight line from the last ones (``linear``), or held over the step.
+        linear : bool
+            Which of the two.
+
+        Raises
+        ------
+        ValueError
+            If the step is not positive, a wheel leaves the track or a force is not a number.
+        RuntimeError
+            If the state-dependent forces do not converge: the step is too long. The state is
+            then unchanged.
+        """
+        if not (np.isfinite(step_size) and step_size > 0.0):
+            raise ValueError(f"track: step size {step_size!r} s must be greater than 0")
+        self._check_forces(forces)
+        operator = self._operator
+        if operator is None or not operator.serves(self._state, step_size, positions, linear):
+            operator = self._operator = StepOperator(
+                self._state,
+                self.track,
+                self._components.active(self._nearest(positions)),
+                self._exponential(step_size),
+                step_size=step_size,
+                positions=positions,
+                linear=linear,
+            )
+        operator.apply(self._state, forces)
+
+    def observe(self) -> Observation:
+        """Displacements, forces and bending moments in the present state."""
+        return Observation(
+            self.track, self._state, wheels=self._locate(self._state.position), gauges=self._gauges
+        )
+
+    def _check_forces(self, forces: FloatArray) -> None:
+        for number, force in enumerate(forces, start=1):
+            if not np.isfinite(force):
+                raise ValueError(
+                    f"track: contact force {float(force)!r} N of wheel {number} must be a finite "
+                    "number; look for the cause in the vehicle"
+                )
+
+    def _locate(self, positions: FloatArray) -> list[RailPoint]:
+        return [locate(self.track.parameters, float(position)) for position in positions]
+
+    def _nearest(self, positions: FloatArray) -> tuple[int, ...]:
+        return nearest_supports(
+            self.track.parameters, positions, self.options.supports_per_wheel
+        )
+
+    def _exponential(self, step_size: float) -> ExponentialStep:
+        """Coefficients of a step size; those used last are remembered."""
+        known = self._exponentials
+        if step_size in known:
+            known.move_to_end(step_size)
+        else:
+            known[step_size] = exponential_step(self.track.eigenvalues, step_size)
+            if len(known) > REMEMBERED_STEP_SIZES:
+                known.popitem(last=False)
+        return known[step_size]
