@@ -58,7 +58,11 @@ class EigenPairs:
 
 
 def solve_damped(
-    mass: sp.csc_array, damping: sp.csc_array, stiffness: sp.csc_array, dampers: sp.csc_array, *,
+    mass: sp.csc_array,
+    damping: sp.csc_array,
+    stiffness: sp.csc_array,
+    dampers: sp.csc_array,
+    *,
     mode_pairs: int,
 ) -> EigenPairs:
     """Lowest eigenpairs of ``lambda^2 M + lambda C + K``.
@@ -106,7 +110,7 @@ def _subspace(
     size = mass.shape[0]
     _, modes = la.eigh(stiffness.toarray(), mass.toarray(), subset_by_index=[0, count - 1])
     if count == size:
-        return modes
+        return np.asarray(modes)
     static = la.solveh_banded(to_banded(stiffness), dampers.toarray(), lower=True)
     for _ in range(2):  # twice is enough for orthogonality to rounding
         static -= modes @ (modes.T @ (mass @ static))
@@ -145,9 +149,7 @@ def _select(eigenvalues: ComplexArray, mode_pairs: int) -> slice:
 class _BandedPolynomial:
     """``T(lambda) = lambda^2 M + lambda C + K`` in band storage, and the refinement of a mode."""
 
-    def __init__(
-        self, mass: sp.csc_array, damping: sp.csc_array, stiffness: sp.csc_array
-    ) -> None:
+    def __init__(self, mass: sp.csc_array, damping: sp.csc_array, stiffness: sp.csc_array) -> None:
         self.matrices = (mass, damping, stiffness)
         self.bands = tuple(_general_band(matrix) for matrix in self.matrices)
 
@@ -174,11 +176,11 @@ class _BandedPolynomial:
 
     def _rayleigh(self, mode: ComplexArray, near: complex) -> complex:
         """Root of ``mode^T T(lambda) mode = 0`` nearest to a given value."""
-        a, b, c = (complex(mode @ (matrix @ mode)) for matrix in self.matrices)
+        a, b, c = (complex(np.dot(mode, np.asarray(matrix @ mode))) for matrix in self.matrices)
         root = np.sqrt(complex(b * b - 4.0 * a * c))
         # the larger of -b +- root, and c over it: no cancellation
         large = -0.5 * (b + root) if abs(b + root) >= abs(b - root) else -0.5 * (b - root)
-        return min((large / a, c / large), key=lambda candidate: abs(candidate - near))
+        return complex(min((large / a, c / large), key=lambda candidate: abs(candidate - near)))
 
 
 def _general_band(matrix: sp.csc_array) -> ComplexArray:
@@ -195,8 +197,8 @@ def _normalise(
     eigenvalues: ComplexArray, modes: ComplexArray, mass: sp.csc_array, damping: sp.csc_array
 ) -> None:
     """Scale the modes in place to ``a_n = 2 lambda rho^T M rho + rho^T C rho = 1``, Eq. (11a)."""
-    mass_terms = np.sum(modes * (mass @ modes), axis=0)
-    damping_terms = np.sum(modes * (damping @ modes), axis=0)
+    mass_terms = np.sum(modes * np.asarray(mass @ modes), axis=0)
+    damping_terms = np.sum(modes * np.asarray(damping @ modes), axis=0)
     modes /= np.sqrt(2.0 * eigenvalues * mass_terms + damping_terms)
 
 
@@ -204,8 +206,8 @@ def _check_distinct(
     eigenvalues: ComplexArray, modes: ComplexArray, mass: sp.csc_array, damping: sp.csc_array
 ) -> None:
     """Refuse a set in which two modes coincide: their A-product would be 1 instead of 0."""
-    mass_products = modes.T @ (mass @ modes)
-    products = modes.T @ (damping @ modes) + mass_products * (
+    mass_products = modes.T @ np.asarray(mass @ modes)
+    products = modes.T @ np.asarray(damping @ modes) + mass_products * (
         eigenvalues[:, None] + eigenvalues[None, :]
     )
     np.fill_diagonal(products, 0.0)

@@ -40,7 +40,9 @@ def exponential_step(eigenvalues: ComplexArray, step_size: float) -> Exponential
     safe = np.where(small, 1.0, z)
     phi1 = np.where(small, _series(z, 1), (decay - 1.0) / safe)
     phi2 = np.where(small, _series(z, 2), (phi1 - 1.0) / safe)
-    return ExponentialStep(decay, step_size * (phi1 - phi2), step_size * phi2)
+    start: ComplexArray = np.multiply(step_size, phi1 - phi2, dtype=np.complex128)
+    end: ComplexArray = np.multiply(step_size, phi2, dtype=np.complex128)
+    return ExponentialStep(decay, start, end)
 
 
 def _series(z: ComplexArray, order: int) -> ComplexArray:

@@ -125,9 +125,7 @@ def _coordinate_operator(matrices: TrackMatrices) -> sp.csr_array:
     rail = sp.coo_array(
         (np.ones(len(rows)), (rows, dofs[rows])), shape=(len(dofs), matrices.numbering.size)
     )
-    return sp.csr_array(
-        sp.vstack([rail, matrices.ballast_incidence.T, matrices.pad_incidence.T])
-    )
+    return sp.csr_array(sp.vstack([rail, matrices.ballast_incidence.T, matrices.pad_incidence.T]))
 
 
 def _static_response(matrices: TrackMatrices, coordinates: sp.csr_array) -> FloatArray:

@@ -85,14 +85,10 @@ class StepOperator:
         increment = self._solve_increments(state.increment[self._active.number], forces)
         contact_load = forces @ self._contact
         increment_load = increment @ self._active.shape
-        state.modal[:] = (
-            self._free + self._contact_end * contact_load - self._end * increment_load
-        )
+        state.modal[:] = self._free + self._contact_end * contact_load - self._end * increment_load
         state.load[:] = contact_load - increment_load
         state.displacement[:] = (
-            self._free_contact
-            + self._contact_contact @ forces
-            - self._contact_active @ increment
+            self._free_contact + self._contact_contact @ forces - self._contact_active @ increment
         )
         new_increment = np.zeros_like(state.increment)
         new_increment[self._active.number] = increment

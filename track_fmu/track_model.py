@@ -190,9 +190,7 @@ class TrackModel:
         return [locate(self.track.parameters, float(position)) for position in positions]
 
     def _nearest(self, positions: FloatArray) -> tuple[int, ...]:
-        return nearest_supports(
-            self.track.parameters, positions, self.options.supports_per_wheel
-        )
+        return nearest_supports(self.track.parameters, positions, self.options.supports_per_wheel)
 
     def _exponential(self, step_size: float) -> ExponentialStep:
         """Coefficients of a step size; those used last are remembered."""

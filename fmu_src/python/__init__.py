@@ -1,0 +1,1 @@
+"""Models as FMI 2.0 co-simulation slaves in Python, through pythonfmu."""

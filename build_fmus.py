@@ -1,0 +1,161 @@
+"""Builds the FMUs of the track and of the vehicle.
+
+``python build_fmus.py`` writes them to ``dist/``; what is there and up to date is left alone. An
+FMU is up to date if its identity, a hash of everything that goes into it, is that of the present
+sources.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+import zipfile
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+
+import platformdirs
+
+from fmu_src.archive import write_archive
+from fmu_src.python.packaging import RECIPES, fmu_contents
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Structure:
+    """What is fixed when an FMU is built.
+
+    Parameters
+    ----------
+    bays, elements_per_bay : int
+        Size of the track.
+    wheels : int
+        Number of wheels.
+    gauges : int
+        Number of bending moment gauges.
+
+    Raises
+    ------
+    ValueError
+        If a number is too small.
+    """
+
+    bays: int = 50
+    elements_per_bay: int = 8
+    wheels: int = 2
+    gauges: int = 3
+
+    def __post_init__(self) -> None:
+        for name, least in (("bays", 2), ("elements_per_bay", 1), ("wheels", 1), ("gauges", 0)):
+            if getattr(self, name) < least:
+                raise ValueError(f"{name} is {getattr(self, name)}; it must be at least {least}")
+
+    def of(self, kind: str) -> dict[str, int]:
+        """The part that matters to the FMU of a kind."""
+        return asdict(self) if kind == "track" else {"wheels": self.wheels}
+
+    def file_name(self, kind: str) -> str:
+        """File name of the FMU of a kind; the default structure has the plain name."""
+        defaults = {field.name: field.default for field in fields(self)}
+        changed = {k: v for k, v in self.of(kind).items() if v != defaults[k]}
+        suffix = "".join(f"-{value}{name.replace('_', '-')}" for name, value in changed.items())
+        return f"{RECIPES[kind].name}{suffix}.fmu"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FmuPaths:
+    """Where the FMUs of a passage are.
+
+    Attributes
+    ----------
+    track, vehicle : Path
+        The archives.
+    """
+
+    track: Path
+    vehicle: Path
+
+
+def default_directory() -> Path:
+    """``dist/`` of a source checkout, otherwise a folder in the user's cache."""
+    root = Path(__file__).resolve().parent
+    if (root / "pyproject.toml").is_file():
+        return root / "dist"
+    return Path(platformdirs.user_cache_dir("railcosim", appauthor=False)) / "fmus"
+
+
+def ensure_fmus(
+    directory: Path,
+    structure: Structure | None = None,
+    *,
+    progress: Callable[[str], None] | None = None,
+) -> FmuPaths:
+    """Build the FMUs that are missing or stale.
+
+    Parameters
+    ----------
+    directory : Path
+        Where they are kept.
+    structure : Structure, optional
+        What is fixed at build time; the paper's track and bogie without.
+    progress : callable
+        Told what is being built.
+
+    Raises
+    ------
+    OSError
+        If an archive cannot be written.
+    """
+    structure = structure or Structure()
+    paths = {kind: directory / structure.file_name(kind) for kind in RECIPES}
+    for kind, path in paths.items():
+        contents = fmu_contents(kind, structure.of(kind))
+        if _identity(path) != _guid(contents["modelDescription.xml"]):
+            if progress is not None:
+                progress(f"building {path.name}")
+            write_archive(path, contents)
+    return FmuPaths(**paths)
+
+
+def _identity(path: Path) -> str | None:
+    """Identity of an FMU; None if it is missing or not a sound archive."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            if archive.testzip() is not None:
+                return None
+            return _guid(archive.read("modelDescription.xml"))
+    except (OSError, KeyError, zipfile.BadZipFile):
+        return None
+
+
+def _guid(description: bytes) -> str | None:
+    match = re.search(rb'guid="([^"]*)"', description)
+    return match.group(1).decode() if match else None
+
+
+def main() -> int:
+    """Build from the command line; returns the exit code."""
+    parser = argparse.ArgumentParser(description="Build the track and vehicle FMUs.")
+    parser.add_argument("--output", type=Path, default=default_directory(), help="folder")
+    for field in fields(Structure):
+        option = "--" + field.name.replace("_", "-")
+        parser.add_argument(option, type=int, default=field.default, help="default %(default)s")
+    arguments = vars(parser.parse_args())
+    directory = arguments.pop("output")
+    try:
+        paths = ensure_fmus(
+            directory, Structure(**arguments), progress=lambda text: print(text, file=sys.stderr)
+        )
+    except ValueError as error:
+        print(f"build_fmus: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"build_fmus: cannot write to {directory}: {error.strerror}", file=sys.stderr)
+        return 1
+    for field in fields(paths):
+        print(getattr(paths, field.name))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,169 @@
+"""Puts a Python slave, its model and pythonfmu into the contents of an FMU.
+
+FMUs in one process share Python's modules, so the code of a build goes under a package name that
+carries the hash of that code: two different builds never see each other's modules. The slave file,
+which a host's wrapper executes twice, only names the class; it refuses code of another build.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from xml.etree.ElementTree import indent, tostring
+
+import pythonfmu
+
+import track_fmu
+import vehicle_fmu
+from fmu_src.archive import content_hash
+
+from .model_slave import ModelSlave
+from .track_slave import TrackSlave
+from .vehicle_slave import VehicleSlave
+
+SHARED = (
+    "__init__.py",
+    "model_description.py",
+    "model_slave.py",
+    "slave_state.py",
+    "tables.py",
+    "variables.py",
+)
+LIBRARIES = {"linux64": ".so", "win64": ".dll"}  # what pythonfmu provides
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Recipe:
+    """Which code makes up an FMU.
+
+    Attributes
+    ----------
+    name : str
+        Model name and identifier.
+    slave : type
+        The slave class.
+    model : module
+        Package of the model.
+    modules : tuple of str
+        Files beside the slave that only this FMU needs.
+    """
+
+    name: str
+    slave: type[ModelSlave]
+    model: ModuleType
+    modules: tuple[str, ...]
+
+
+RECIPES = {
+    "track": Recipe(
+        name="Track",
+        slave=TrackSlave,
+        model=track_fmu,
+        modules=("track_slave.py", "track_variables.py", "basis_cache.py"),
+    ),
+    "vehicle": Recipe(
+        name="Vehicle",
+        slave=VehicleSlave,
+        model=vehicle_fmu,
+        modules=("vehicle_slave.py", "vehicle_variables.py"),
+    ),
+}
+
+SLAVE_FILE = '''"""The {name} FMU; written by build_fmus.py."""
+
+import {package}
+from {package}.slave.{module} import {base}
+
+if {package}.BUILD != "{build}":
+    raise ImportError(
+        "{name}: code of another build ({package}) is already loaded; start a new process"
+    )
+
+
+class {name}({base}):
+    """The slave with the structure that was fixed when it was built."""
+
+    build = "{build}"
+{structure}
+'''
+
+
+def fmu_contents(kind: str, structure: Mapping[str, int]) -> dict[str, bytes]:
+    """Contents of an FMU by file name.
+
+    Parameters
+    ----------
+    kind : str
+        A key of `RECIPES`.
+    structure : mapping of str to int
+        Class attributes of the slave: what is fixed when an FMU is built.
+    """
+    recipe = RECIPES[kind]
+    sources = _sources(recipe)
+    pythonfmu_sources = {
+        f"resources/pythonfmu/{path.name}": path.read_bytes()
+        for path in sorted(Path(str(pythonfmu.__file__)).parent.glob("*.py"))
+    }
+    described = "".join(f"{name}={value};" for name, value in sorted(structure.items()))
+    build = content_hash(sources | pythonfmu_sources | {"structure": described.encode()})
+    package = f"railcosim_{kind}_{build[:12]}"
+    module = f"{package}_slave"
+    slave = SLAVE_FILE.format(
+        name=recipe.name,
+        package=package,
+        module=recipe.modules[0].removesuffix(".py"),
+        base=recipe.slave.__name__,
+        build=build,
+        structure="\n".join(f"    {name} = {value}" for name, value in sorted(structure.items())),
+    )
+    contents = {
+        f"resources/{package}/{name}": _renamed(data, recipe.model.__name__, package)
+        for name, data in sources.items()
+    }
+    contents[f"resources/{package}/__init__.py"] = (
+        f'"""Code of the {recipe.name} FMU."""\n\nBUILD = "{build}"\n'.encode()
+    )
+    contents[f"resources/{module}.py"] = slave.encode()
+    contents["resources/slavemodule.txt"] = module.encode()
+    contents |= pythonfmu_sources | _libraries(recipe.name)
+    contents["modelDescription.xml"] = _description(recipe, structure, build)
+    return contents
+
+
+def _sources(recipe: Recipe) -> dict[str, bytes]:
+    """Code of the model and of the slave, by path within the package."""
+    model = Path(str(recipe.model.__file__)).parent
+    slave = Path(__file__).parent
+    sources = {
+        f"{recipe.model.__name__}/{path.name}": path.read_bytes() for path in model.glob("*.py")
+    }
+    sources |= {f"slave/{name}": (slave / name).read_bytes() for name in (*SHARED, *recipe.modules)}
+    return sources
+
+
+def _renamed(source: bytes, model: str, package: str) -> bytes:
+    """Source with the model's package imported from within the FMU's own package."""
+    pattern = rf"^(\s*from ){model}\b"
+    return re.sub(pattern, rf"\1{package}.{model}", source.decode(), flags=re.MULTILINE).encode()
+
+
+def _libraries(identifier: str) -> dict[str, bytes]:
+    """The wrapper libraries of pythonfmu."""
+    folder = Path(str(pythonfmu.__file__)).parent / "resources" / "binaries"
+    return {
+        f"binaries/{platform}/{identifier}{suffix}": path.read_bytes()
+        for platform, suffix in LIBRARIES.items()
+        for path in (folder / platform).glob(f"*{suffix}")
+    }
+
+
+def _description(recipe: Recipe, structure: Mapping[str, int], build: str) -> bytes:
+    """Model description, from an instance of the slave with the same structure."""
+    slave = type(recipe.name, (recipe.slave,), {"build": build, **structure})
+    root = slave(instance_name=recipe.name).to_xml()
+    indent(root)
+    text: str = tostring(root, encoding="unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'.encode()

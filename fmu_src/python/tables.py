@@ -1,0 +1,83 @@
+"""Numeric tables in CSV files: measured profiles, irregularities, speeds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def read_table(path: str | Path, columns: Sequence[str]) -> dict[str, NDArray[np.float64]]:
+    """Read a table of numbers.
+
+    Values are separated by commas, semicolons or white space; empty lines and lines that start
+    with ``#`` are passed over; one line of column names may come first.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    columns : sequence of str
+        Names of the columns in the order in which the file has them.
+
+    Returns
+    -------
+    dict of (rows,) float array
+        One array a column, all values finite.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read, a line has the wrong number of values or a value is not a
+        finite number; the message names file and line.
+    """
+    try:
+        text = Path(path).read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise ValueError(f"table {path}: cannot be read ({reason})") from error
+    rows: list[list[float]] = []
+    header_allowed = True
+    for number, line in enumerate(text.splitlines(), start=1):
+        content = line.strip()
+        if not content or content.startswith("#"):
+            continue
+        cells = content.replace(";", ",").split(",") if _has_separator(content) else content.split()
+        if header_allowed and not any(_is_number(cell) for cell in cells):
+            header_allowed = False
+            continue
+        header_allowed = False
+        rows.append(_numbers(cells, columns, f"table {path}, line {number}"))
+    if not rows:
+        raise ValueError(f"table {path}: has no rows; expected columns {', '.join(columns)}")
+    values = np.array(rows)
+    return {name: values[:, i].copy() for i, name in enumerate(columns)}
+
+
+def _has_separator(content: str) -> bool:
+    return "," in content or ";" in content
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def _numbers(cells: Sequence[str], columns: Sequence[str], where: str) -> list[float]:
+    """Values of one line."""
+    if len(cells) != len(columns):
+        raise ValueError(
+            f"{where}: has {len(cells)} values, not {len(columns)} ({', '.join(columns)})"
+        )
+    numbers = []
+    for cell, column in zip(cells, columns, strict=True):
+        if not _is_number(cell) or not math.isfinite(float(cell)):
+            raise ValueError(f"{where}: {column} is {cell.strip()!r}, not a finite number")
+        numbers.append(float(cell))
+    return numbers

@@ -1,0 +1,189 @@
+"""Variables of the track FMU."""
+
+from __future__ import annotations
+
+from track_fmu.ballast import PolynomialBallast
+from track_fmu.parameters import TrackParameters
+from track_fmu.track_model import TrackOptions
+
+from .variables import Variable
+
+# name, unit, description of the parameters of Table 1
+TABLE_1 = (
+    ("bending_stiffness", "N.m2", "Bending stiffness EI of the rail"),
+    ("shear_stiffness", "N", "Shear stiffness kAG of the rail"),
+    ("mass_per_length", "kg/m", "Mass of the rail per unit length"),
+    ("rotary_inertia_per_length", "kg.m", "Rotary inertia of the rail per unit length"),
+    ("pad_stiffness", "N/m", "Linear stiffness of a rail pad"),
+    ("pad_damping", "N.s/m", "Linear viscous damping of a rail pad"),
+    ("sleeper_mass", "kg", "Mass of half a sleeper"),
+    ("sleeper_spacing", "m", "Distance between sleepers"),
+    ("ballast_stiffness", "N/m", "Linear stiffness of ballast and subgrade under a rail seat"),
+    ("ballast_damping", "N.s/m", "Linear viscous damping of ballast and subgrade"),
+)
+FIRST_WHEEL = 12.7  # m; the demonstration example starts 3.9 m before its flat at 16.6 m
+AXLE_BASE = 1.8  # m
+STATIC_WHEEL_LOAD = 117_720.0  # N
+
+
+def declare_track(structure: TrackParameters, *, wheels: int, gauges: int) -> list[Variable]:
+    """Variables of a track FMU of given size.
+
+    Parameters
+    ----------
+    structure : TrackParameters
+        Size of the track; its other values are the start values.
+    wheels, gauges : int
+        Number of wheels and of bending moment gauges.
+    """
+    return [
+        *_parameters(structure, gauges),
+        *_inputs(structure, wheels),
+        *_outputs(structure, wheels, gauges),
+    ]
+
+
+def _parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
+    variables = [
+        Variable(
+            name=name,
+            causality="parameter",
+            unit=unit,
+            start=getattr(structure, name),
+            minimum=0.0,
+            description=description,
+        )
+        for name, unit, description in TABLE_1
+    ]
+    law, options = PolynomialBallast(), TrackOptions()
+    variables.append(
+        Variable(
+            name="ballast",
+            causality="parameter",
+            start="state_dependent",
+            description="Ballast law: state_dependent (Nielsen & Oscarsson 2004, Eq. 27 and 30, "
+            "on top of the linear ballast) or linear",
+        )
+    )
+    variables += [
+        Variable(
+            name=f"ballast_{name}",
+            causality="parameter",
+            unit=unit,
+            start=getattr(law, name),
+            description=f"Coefficient of x^{power} in the state-dependent ballast force (Eq. 27)",
+        )
+        for name, unit, power in (("alpha", "N/m2", 2), ("beta", "N/m3", 3), ("delta", "N/m4", 4))
+    ]
+    variables += [
+        Variable(
+            name="mode_pairs",
+            causality="parameter",
+            start=150,
+            description="Number of retained pairs of complex modes",
+        ),
+        Variable(
+            name="residual_flexibility",
+            causality="parameter",
+            start=True,
+            description="Whether the quasi-static part of the other modes is accounted for",
+        ),
+        Variable(
+            name="supports_per_wheel",
+            causality="parameter",
+            start=options.supports_per_wheel,
+            description="Number of supports nearest to a wheel whose forces are state-dependent",
+        ),
+        Variable(
+            name="initial_speed",
+            causality="parameter",
+            unit="m/s",
+            start=options.initial_speed,
+            description="Speed with which the static deflection moves along at the start",
+        ),
+    ]
+    middle = (structure.bays // 2 + 0.5) * structure.sleeper_spacing
+    offsets = [0.0, -0.5, 0.5]
+    for k in range(gauges):
+        offset = offsets[k] if k < len(offsets) else k - 2.0
+        variables.append(
+            Variable(
+                name=f"gauge[{k + 1}].position",
+                causality="parameter",
+                unit="m",
+                start=min(middle + offset * structure.sleeper_spacing, structure.length),
+                minimum=0.0,
+                description=f"Track position of bending moment gauge {k + 1}",
+            )
+        )
+    return variables
+
+
+def _inputs(structure: TrackParameters, wheels: int) -> list[Variable]:
+    positions = [
+        Variable(
+            name=f"wheel[{i + 1}].position",
+            causality="input",
+            group="position",
+            index=i,
+            unit="m",
+            nominal=1.0,
+            minimum=0.0,
+            maximum=structure.length,
+            start=max(FIRST_WHEEL - i * AXLE_BASE, 0.0),
+            description=f"Track position of wheel {i + 1}, from the clamped end of the rail",
+        )
+        for i in range(wheels)
+    ]
+    forces = [
+        Variable(
+            name=f"wheel[{i + 1}].contact_force",
+            causality="input",
+            group="contact_force",
+            index=i,
+            unit="N",
+            nominal=1e5,
+            minimum=0.0,
+            start=STATIC_WHEEL_LOAD,
+            description=f"Contact force of wheel {i + 1} on the rail, compression positive",
+        )
+        for i in range(wheels)
+    ]
+    return positions + forces
+
+
+def _outputs(structure: TrackParameters, wheels: int, gauges: int) -> list[Variable]:
+    known = tuple(
+        f"wheel[{i}].{name}" for i in range(1, wheels + 1) for name in ("position", "contact_force")
+    )
+    supports = structure.supports
+    kinds = (
+        ("wheel", "rail_displacement", "rail_displacement", wheels, "m", 1e-3,
+         "Displacement of the rail under wheel {}, downwards positive"),
+        ("wheel", "rail_velocity", "rail_velocity", wheels, "m/s", 1e-1,
+         "Rail velocity under wheel {}, following the wheel, downwards positive"),
+        ("wheel", "bending_moment", "wheel_moment", wheels, "N.m", 1e4,
+         "Bending moment of the rail under wheel {}, sagging positive"),
+        ("gauge", "bending_moment", "gauge_moment", gauges, "N.m", 1e4,
+         "Bending moment of the rail at gauge {}, sagging positive"),
+        ("sleeper", "displacement", "sleeper_displacement", supports, "m", 1e-3,
+         "Displacement of sleeper {}, downwards positive"),
+        ("pad", "force", "pad_force", supports, "N", 1e4,
+         "Force in the rail pad on sleeper {}, compression positive"),
+        ("ballast", "force", "ballast_force", supports, "N", 1e4,
+         "Force on the ballast under sleeper {}, compression positive"),
+    )  # fmt: skip
+    return [
+        Variable(
+            name=f"{part}[{i + 1}].{name}",
+            causality="output",
+            group=group,
+            index=i,
+            unit=unit,
+            nominal=nominal,
+            description=description.format(i + 1),
+            initial_dependencies=known,
+        )
+        for part, name, group, count, unit, nominal, description in kinds
+        for i in range(count)
+    ]

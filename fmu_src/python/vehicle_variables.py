@@ -1,0 +1,127 @@
+"""Variables of the vehicle FMU."""
+
+from __future__ import annotations
+
+from vehicle_fmu.parameters import FlatParameters, VehicleParameters
+
+from .variables import Variable
+
+# name, unit, description; the start values are those of the models' own parameters
+VEHICLE = (
+    ("wheel_mass", "kg", "Mass moving with each wheel, half the unsprung mass of a wheelset"),
+    ("static_wheel_load", "N", "Total static wheel-rail force, the only weight in the model"),
+    ("axle_base", "m", "Distance between successive wheels"),
+    ("wheel_radius", "m", "Rolling radius of the wheels"),
+    ("hertz_coefficient", "N/m1.5", "Contact force over compression to the power 1.5"),
+    ("initial_position", "m", "Track position of wheel 1, the leading one, at the start"),
+    ("substep", "s", "Longest internal integration step"),
+)
+FLAT = (
+    ("length", "m", "Length of the flat along the tread"),
+    ("depth", "m", "Largest drop of the tread; a chord's follows from its length"),
+    ("wheel", "", "The wheel that has the flat, counted from 1"),
+    ("position", "m", "Track position at which the centre of the flat meets the rail"),
+    ("periodic", "", "Whether the flat meets the rail at every turn, or once only"),
+    ("rolled", "", "Whether the wheel rolls over the profile, or follows it as it is"),
+)
+SHAPE = (
+    "Shape of the flat: haversine, parabola, cusp, chord, none, or the path of a CSV file with "
+    "distance [m] and drop [m]"
+)
+SPEED = 40.0 / 3.6  # m/s, of the demonstration example
+
+
+def declare_vehicle(wheels: int) -> list[Variable]:
+    """Variables of a vehicle FMU with the given number of wheels."""
+    return [*_parameters(), *_inputs(wheels), *_outputs(wheels)]
+
+
+def _parameters() -> list[Variable]:
+    vehicle, flat = VehicleParameters(), FlatParameters(shape="haversine")
+    variables = [
+        Variable(
+            name="speed",
+            causality="parameter",
+            unit="m/s",
+            start=SPEED,
+            minimum=0.0,
+            description="Constant speed along the track",
+        ),
+        Variable(
+            name="speed_table",
+            causality="parameter",
+            start="",
+            description="Path of a CSV file with time [s] and speed [m/s], instead of the "
+            "constant speed; empty: none",
+        ),
+        Variable(
+            name="rail_irregularity",
+            causality="parameter",
+            start="",
+            description="Path of a CSV file with track position [m] and drop of the railhead "
+            "[m], downwards positive; empty: a smooth rail",
+        ),
+        Variable(name="flat.shape", causality="parameter", start=flat.shape, description=SHAPE),
+    ]
+    for owner, prefix, table in ((vehicle, "", VEHICLE), (flat, "flat.", FLAT)):
+        variables += [
+            Variable(
+                name=prefix + name,
+                causality="parameter",
+                unit=unit,
+                start=getattr(owner, name),
+                description=description,
+            )
+            for name, unit, description in table
+        ]
+    return variables
+
+
+def _inputs(wheels: int) -> list[Variable]:
+    return [
+        Variable(
+            name=f"wheel[{i + 1}].rail_displacement",
+            causality="input",
+            group="rail_displacement",
+            index=i,
+            unit="m",
+            nominal=1e-3,
+            start=0.0,
+            description=f"Displacement of the rail under wheel {i + 1}, downwards positive",
+        )
+        for i in range(wheels)
+    ]
+
+
+def _outputs(wheels: int) -> list[Variable]:
+    on_rail = ("wheel[{}].rail_displacement",)
+    kinds: tuple[tuple[str, str, float, float | None, float | None, tuple[str, ...], str], ...] = (
+        ("position", "m", 0.0, None, 1.0, (),
+         "Track position of wheel {}"),
+        ("contact_force", "N", 0.0, 0.0, 1e5, (),
+         "Contact force of wheel {} on the rail, compression positive"),
+        ("displacement", "m", 0.0, None, 1e-3, on_rail,
+         "Displacement of wheel {}, downwards positive"),
+        ("velocity", "m/s", 0.0, None, 1e-1, (),
+         "Velocity of wheel {}, downwards positive"),
+        ("gap", "m", 0.0, None, 1e-4, (),
+         "Gap between wheel {} and rail, positive when apart, negative when compressed"),
+        ("in_contact", "", False, None, None, (),
+         "Whether wheel {} touches the rail"),
+    )  # fmt: skip
+    return [
+        Variable(
+            name=f"wheel[{i + 1}].{name}",
+            causality="output",
+            group=name,
+            index=i,
+            unit=unit,
+            start=kind,
+            minimum=minimum,
+            nominal=nominal,
+            description=description.format(i + 1),
+            initial_dependencies=tuple(known.format(i + 1) for known in dependencies),
+        )
+        for name, unit, kind, minimum, nominal, dependencies, description in kinds
+        for i in range(wheels)
+    ]
