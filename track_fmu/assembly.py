@@ -114,7 +114,7 @@ def to_banded(matrix: sp.csc_array) -> FloatArray:
     """Lower band storage, shape (HALF_BANDWIDTH + 1, N), of a symmetric matrix."""
     size = matrix.shape[0]
     banded = np.zeros((HALF_BANDWIDTH + 1, size))
-    for k in range(HALF_BANDWIDTH + 1):
+    for k in range(min(HALF_BANDWIDTH + 1, size)):
         banded[k, : size - k] = matrix.diagonal(-k)
     return banded
 

@@ -161,9 +161,13 @@ class _BandedPolynomial:
             band = self.bands[2] + eigenvalue * (self.bands[1] + eigenvalue * self.bands[0])
             right = 2.0 * eigenvalue * (mass @ mode) + damping @ mode
             _, _, mode, info = zgbsv(HALF_BANDWIDTH, HALF_BANDWIDTH, band, right)
-            mode = mode / mode[np.argmax(np.abs(mode))]
-            if info < 0 or not np.all(np.isfinite(mode)):
-                raise EigenvalueError(f"track: no mode found near the eigenvalue {eigenvalue:.6g}")
+            largest = mode[np.argmax(np.abs(mode))]
+            if info < 0 or not np.isfinite(largest) or largest == 0.0:
+                raise EigenvalueError(
+                    f"track: no mode found near the eigenvalue {eigenvalue:.6g} 1/s; two may "
+                    "coincide there: change the damping slightly"
+                )
+            mode = mode / largest
             if is_real:
                 mode = mode.real.astype(np.complex128)
             previous, eigenvalue = eigenvalue, self._rayleigh(mode, eigenvalue)
@@ -187,7 +191,8 @@ def _general_band(matrix: sp.csc_array) -> ComplexArray:
     """Storage of a symmetric band matrix for LAPACK's gbsv, shape (3 * HALF_BANDWIDTH + 1, N)."""
     size = matrix.shape[0]
     band = np.zeros((3 * HALF_BANDWIDTH + 1, size), dtype=np.complex128, order="F")
-    for k in range(-HALF_BANDWIDTH, HALF_BANDWIDTH + 1):
+    reach = min(HALF_BANDWIDTH, size - 1)
+    for k in range(-reach, reach + 1):
         diagonal = matrix.diagonal(k)
         band[2 * HALF_BANDWIDTH - k, max(k, 0) : max(k, 0) + len(diagonal)] = diagonal
     return band

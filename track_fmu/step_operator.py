@@ -8,11 +8,13 @@ that repeats the step with other forces pays for a few small products, not for a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from .beam_element import FloatArray
 from .components import ActiveComponents
-from .contact_point import RailPoint, locate
+from .contact_point import RailPoint
 from .eigensolver import ComplexArray
 from .exponential_step import ExponentialStep
 from .reduction import ReducedTrack
@@ -40,6 +42,8 @@ class StepOperator:
         Duration [s].
     positions : (wheels,) float array
         Of the wheels at the end of the step [m].
+    wheels : sequence of RailPoint
+        The same places on the rail.
     linear : bool
         Whether positions and forces change on straight lines from the last ones, or jump at the
         start of the step and are held.
@@ -54,19 +58,19 @@ class StepOperator:
         *,
         step_size: float,
         positions: FloatArray,
+        wheels: Sequence[RailPoint],
         linear: bool,
     ) -> None:
         self.step_size, self.linear = step_size, linear
         self.positions = positions.copy()
-        self.wheels: list[RailPoint] = [locate(track.parameters, float(x)) for x in positions]
         self._active = active
         self._start = state.flat.copy()
-        self._contact: ComplexArray = np.array([w.shape @ track.shape[w.rows] for w in self.wheels])
+        self._contact: ComplexArray = np.array([w.shape @ track.shape[w.rows] for w in wheels])
         self._end = exponential.end
         self._contact_end = exponential.end if linear else exponential.start + exponential.end
         load = state.load if linear else self._increment_load(state, track)
         self._free: ComplexArray = exponential.decay * state.modal + exponential.start * load
-        self._set_up_displacements(track)
+        self._set_up_displacements(track, wheels)
         self._set_up_rates(track)
 
     def serves(
@@ -109,7 +113,7 @@ class StepOperator:
         held: ComplexArray = state.increment @ track.shape[first : first + len(state.increment)]
         return -held
 
-    def _set_up_displacements(self, track: ReducedTrack) -> None:
+    def _set_up_displacements(self, track: ReducedTrack, wheels: Sequence[RailPoint]) -> None:
         """Displacements under the wheels and at the components: free, and per force at the end."""
         contact, active = self._contact, self._active
         weighted_contact, weighted_active = contact * track.weight, active.shape * track.weight
@@ -117,8 +121,8 @@ class StepOperator:
         self._free_active: FloatArray = np.real(weighted_active @ self._free)
         driven_contact = (contact * self._contact_end).T
         driven_active = (active.shape * self._end).T
-        residual = np.array([track.flexibility[:, w.rows] @ w.shape for w in self.wheels]).T
-        residual_contact = np.array([w.shape @ residual[w.rows] for w in self.wheels])
+        residual = np.array([track.flexibility[:, w.rows] @ w.shape for w in wheels]).T
+        residual_contact = np.array([w.shape @ residual[w.rows] for w in wheels])
         residual_active = residual[active.rows]
         self._contact_contact: FloatArray = (
             np.real(weighted_contact @ driven_contact) + residual_contact
@@ -154,17 +158,19 @@ class StepOperator:
         deformation = self._free_active + self._active_contact @ forces
         rate = self._free_rate + self._rate_contact @ forces
         increment = guess
-        for _ in range(MAX_SWEEPS):
-            previous = increment
-            increment = self._active.force(
-                deformation - self._active_active @ previous, rate - self._rate_active @ previous
-            )
-            change = float(np.max(np.abs(increment - previous)))
-            scale = float(np.max(np.abs(increment)))
-            if change <= RELATIVE_TOLERANCE * scale + ABSOLUTE_TOLERANCE:
-                return increment
-            if not np.isfinite(change):
-                break
+        with np.errstate(over="ignore", invalid="ignore"):  # divergence is refused below
+            for _ in range(MAX_SWEEPS):
+                previous = increment
+                increment = self._active.force(
+                    deformation - self._active_active @ previous,
+                    rate - self._rate_active @ previous,
+                )
+                change = float(np.max(np.abs(increment - previous)))
+                scale = float(np.max(np.abs(increment)))
+                if not np.isfinite(scale):
+                    break
+                if change <= RELATIVE_TOLERANCE * scale + ABSOLUTE_TOLERANCE:
+                    return increment
         raise RuntimeError(
             f"track: the state-dependent forces did not converge in {MAX_SWEEPS} sweeps over a "
             f"step of {self.step_size:.3g} s; use a shorter step"

@@ -123,11 +123,12 @@ class TrackModel:
             If the equilibrium is not found.
         """
         self._check_forces(forces)
+        wheels = self._locate(positions)
         static_start(
             self._state,
             self.track,
             self._components.active(self._nearest(positions)),
-            wheels=self._locate(positions),
+            wheels=wheels,
             forces=forces,
             speed=self.options.initial_speed,
         )
@@ -161,6 +162,7 @@ class TrackModel:
         self._check_forces(forces)
         operator = self._operator
         if operator is None or not operator.serves(self._state, step_size, positions, linear):
+            wheels = self._locate(positions)
             operator = self._operator = StepOperator(
                 self._state,
                 self.track,
@@ -168,6 +170,7 @@ class TrackModel:
                 self._exponential(step_size),
                 step_size=step_size,
                 positions=positions,
+                wheels=wheels,
                 linear=linear,
             )
         operator.apply(self._state, forces)

@@ -1,0 +1,84 @@
+"""Checks that several parameter classes share; every refusal names value, limit and remedy."""
+
+import math
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray: TypeAlias = npt.NDArray[np.float64]
+
+
+def require_finite(name: str, value: float, unit: str, remedy: str) -> None:
+    """Raise ValueError unless `value` is a finite number."""
+    if not math.isfinite(value):
+        raise ValueError(f"{name} is {value:g} {unit}; it must be a finite number: {remedy}")
+
+
+def require_positive(name: str, value: float, unit: str, remedy: str) -> None:
+    """Raise ValueError unless `value` is finite and above zero."""
+    if not (math.isfinite(value) and value > 0.0):
+        raise ValueError(
+            f"{name} is {value:g} {unit}; it must be a finite number above zero: {remedy}"
+        )
+
+
+def checked_table(
+    table: str,
+    abscissa: tuple[str, npt.ArrayLike],
+    ordinate: tuple[str, npt.ArrayLike],
+    *,
+    least: int,
+) -> tuple[FloatArray, FloatArray]:
+    """Return the two columns of a table as read-only float64 copies.
+
+    Parameters
+    ----------
+    table : str
+        What the table is, for the error messages.
+    abscissa, ordinate : tuple of (str, array_like of shape (n,))
+        Name with unit, and values, of each column.
+    least : int
+        Smallest number of points allowed.
+
+    Returns
+    -------
+    tuple of ndarray
+        Abscissa and ordinate, each of shape (n,).
+
+    Raises
+    ------
+    ValueError
+        If a column is not one-dimensional, the lengths differ, there are fewer than `least`
+        points, a value is NaN or infinite, or the abscissa does not increase strictly.
+    """
+    columns: list[FloatArray] = []
+    for name, values in (abscissa, ordinate):
+        column = np.array(values, dtype=np.float64)
+        if column.ndim != 1:
+            raise ValueError(
+                f"{table}: {name} has {column.ndim} dimensions; it must be a plain list of numbers"
+            )
+        if not np.isfinite(column).all():
+            bad = int(np.flatnonzero(~np.isfinite(column))[0])
+            raise ValueError(
+                f"{table}: {name} is {column[bad]:g} at point {bad + 1} of {column.size}; "
+                "every value must be finite: remove or repair that point"
+            )
+        column.flags.writeable = False
+        columns.append(column)
+    x, y = columns
+    if x.size != y.size:
+        raise ValueError(
+            f"{table}: {x.size} values of {abscissa[0]} but {y.size} of {ordinate[0]}; "
+            "the columns must have the same length"
+        )
+    if x.size < least:
+        raise ValueError(f"{table}: {x.size} points; at least {least} are needed")
+    if not (np.diff(x) > 0.0).all():
+        bad = int(np.flatnonzero(np.diff(x) <= 0.0)[0])
+        raise ValueError(
+            f"{table}: {abscissa[0]} goes from {x[bad]:g} to {x[bad + 1]:g} at point {bad + 2}; "
+            "it must increase from point to point: sort the table and remove duplicates"
+        )
+    return x, y

@@ -1,0 +1,259 @@
+"""The vehicle: wheels that roll along a moving rail, each in Hertzian contact with it."""
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from .contact import hertz_compression, hertz_force
+from .excitation import Excitation
+from .integration import integrate_wheel
+from .irregularity import RailIrregularity
+from .parameters import FlatParameters, VehicleParameters
+from .running_surface import checked_rail_displacement, surface_over_step
+from .speed import SpeedLaw
+from .validation import FloatArray
+from .wheel_profile import WheelProfileTable, check_flat
+
+# The caller's time and the end of the last step may come from different sums of step sizes.
+_TIME_TOLERANCE = 1e-9
+
+
+class VehicleModel:
+    """Rigid masses on Hertzian contacts, moving along a rail of given displacement.
+
+    For each wheel, with z positive downwards [Nielsen & Oscarsson (2004), section 4]:
+
+        m z'' = P - F,   F = C_H max(0, delta)^1.5,   delta = z - u - p(x) - r(x)
+
+    u is the displacement of the rail under the wheel (the input), p the drop of the tread, r that
+    of the railhead, x the position of the wheel. Given u, the wheels are independent.
+
+    Parameters
+    ----------
+    parameters : VehicleParameters
+        Masses, loads, geometry, accuracy.
+    flat : FlatParameters
+        The flat on one of the wheels.
+    speed : ConstantSpeed or SpeedTable
+        The motion along the rail.
+    flat_table : WheelProfileTable, optional
+        The measured profile of a flat of shape "table".
+    irregularity : RailIrregularity, optional
+        The railhead's irregularity; a perfect rail without.
+
+    Raises
+    ------
+    ValueError
+        If the flat is on no wheel of this vehicle, does not fit on the wheel, or its shape and
+        table do not go together.
+
+    Notes
+    -----
+    `initialise`, or setting a saved `state`, comes before everything else. A call that raises
+    leaves the model as it was.
+    """
+
+    def __init__(
+        self,
+        parameters: VehicleParameters,
+        *,
+        flat: FlatParameters,
+        speed: SpeedLaw,
+        flat_table: WheelProfileTable | None = None,
+        irregularity: RailIrregularity | None = None,
+    ) -> None:
+        check_flat(flat, flat_table, radius=parameters.wheel_radius, wheels=parameters.wheels)
+        self.parameters = parameters
+        self._excitation = Excitation(
+            parameters, flat=flat, flat_table=flat_table, irregularity=irregularity, speed=speed
+        )
+        self._start = self._time = math.nan
+        self._displacement: list[float] = []
+        self._velocity: list[float] = []
+        self._rail: list[float] = []
+        self._compression: list[float] = []
+
+    def initialise(self, time: float, rail_displacement: FloatArray | None = None) -> None:
+        """Put every wheel at rest in static equilibrium at its start position.
+
+        To be called again whenever the rail displacement changes before the first step.
+
+        Parameters
+        ----------
+        time : float
+            Start time [s]; wheel 1 is at `initial_position` then.
+        rail_displacement : ndarray, shape (wheels,), optional
+            Displacement of the rail under each wheel [m], positive downwards; zero without.
+
+        Raises
+        ------
+        ValueError
+            If the time or a displacement is not finite, or their number is not that of wheels.
+        """
+        if not math.isfinite(time):
+            raise ValueError(f"the start time is {time:g} s; it must be a finite number")
+        wheels = self.parameters.wheels
+        rail = checked_rail_displacement(
+            np.zeros(wheels) if rail_displacement is None else rail_displacement, wheels
+        )
+        delta = hertz_compression(
+            self.parameters.static_wheel_load, self.parameters.hertz_coefficient
+        )
+        drops = self._excitation.drops(time, time)
+        self._start = time
+        levels = [u + drop for u, drop in zip(rail, drops, strict=True)]
+        self._accept(time, [w + delta for w in levels], [0.0] * wheels, rail, drops)
+
+    def step(
+        self, time: float, step_size: float, rail_displacement: FloatArray, *, linear: bool
+    ) -> None:
+        """Move on by one step.
+
+        Parameters
+        ----------
+        time : float
+            Start of the step [s], the end of the last one.
+        step_size : float
+            Its length [s]; the integration divides it as finely as it needs.
+        rail_displacement : ndarray, shape (wheels,)
+            Displacement of the rail under each wheel [m], positive downwards.
+        linear : bool
+            The displacement is that at the end of the step, reached on a straight line from the
+            last one; else it is held over the whole step.
+
+        Raises
+        ------
+        ValueError
+            If a displacement is not finite or drives a wheel out of the range of numbers, their
+            number is not that of wheels, `time` is not where the model is, or `step_size` is not
+            finite and above zero.
+        """
+        self._check_step(time, step_size)
+        rail = checked_rail_displacement(rail_displacement, self.parameters.wheels)
+        drops = self._excitation.drops_over_step(self._start, time, step_size)
+        moved = [
+            integrate_wheel(
+                self._displacement[i],
+                self._velocity[i],
+                surface_over_step(self._rail[i] if linear else rail[i], rail[i], drops[i]),
+                step_size=step_size,
+                mass=self.parameters.wheel_mass,
+                load=self.parameters.static_wheel_load,
+                coefficient=self.parameters.hertz_coefficient,
+            )
+            for i in range(self.parameters.wheels)
+        ]
+        for i, motion in enumerate(moved):
+            if not all(map(math.isfinite, motion)):
+                raise ValueError(
+                    f"the rail displacement of {rail[i]:g} m under wheel {i + 1} drives the wheel "
+                    f"to {motion[0]:g} m at {motion[1]:g} m/s; give a smaller one or a shorter step"
+                )
+        z, v = zip(*moved, strict=True)
+        self._accept(time + step_size, [*z], [*v], rail, [row[-1] for row in drops])
+
+    @property
+    def state(self) -> FloatArray:
+        """The complete state, shape (2 + 3 wheels,), as a copy.
+
+        Start time and time [s], displacement [m] and velocity [m/s] of every wheel, and the last
+        rail displacement under every wheel [m]. Setting it restores every output bit for bit.
+
+        Raises
+        ------
+        RuntimeError
+            On reading, if the model was never initialised.
+        ValueError
+            On setting, if the length is wrong or a value is not finite.
+        """
+        self._require_started()
+        return np.array(
+            [self._start, self._time, *self._displacement, *self._velocity, *self._rail]
+        )
+
+    @state.setter
+    def state(self, state: FloatArray) -> None:
+        n = self.parameters.wheels
+        if state.shape != (2 + 3 * n,):
+            raise ValueError(
+                f"the state has shape {state.shape}; that of {n} wheels has {(2 + 3 * n,)}"
+            )
+        values: list[float] = state.tolist()
+        if not all(map(math.isfinite, values)):
+            raise ValueError("the state holds a NaN or infinity; it is not one this model saved")
+        start, time, *wheels = values
+        drops = self._excitation.drops(start, time)
+        self._start = start
+        self._accept(time, wheels[:n], wheels[n : 2 * n], wheels[2 * n :], drops)
+
+    @property
+    def position(self) -> FloatArray:
+        """Position of each wheel along the rail [m], shape (wheels,)."""
+        self._require_started()
+        return np.array(self._excitation.positions(self._start, self._time))
+
+    @property
+    def displacement(self) -> FloatArray:
+        """Displacement z of each wheel [m], positive downwards, shape (wheels,)."""
+        self._require_started()
+        return np.array(self._displacement)
+
+    @property
+    def velocity(self) -> FloatArray:
+        """Velocity z' of each wheel [m/s], positive downwards, shape (wheels,)."""
+        self._require_started()
+        return np.array(self._velocity)
+
+    @property
+    def gap(self) -> FloatArray:
+        """Gap -delta between each wheel and the rail [m], positive apart, shape (wheels,)."""
+        self._require_started()
+        return -np.array(self._compression)
+
+    @property
+    def contact_force(self) -> FloatArray:
+        """Force F in each contact [N], positive in compression, never negative, shape (wheels,)."""
+        self._require_started()
+        coefficient = self.parameters.hertz_coefficient
+        return np.array([hertz_force(delta, coefficient) for delta in self._compression])
+
+    @property
+    def in_contact(self) -> npt.NDArray[np.bool_]:
+        """Whether each wheel presses on the rail, shape (wheels,)."""
+        self._require_started()
+        return np.array([delta > 0.0 for delta in self._compression])
+
+    def _accept(
+        self,
+        time: float,
+        displacement: list[float],
+        velocity: list[float],
+        rail: list[float],
+        drops: list[float],
+    ) -> None:
+        """Take over a state and derive from it, always in the same way, what the outputs need."""
+        self._time = time
+        self._displacement = displacement
+        self._velocity = velocity
+        self._rail = rail
+        self._compression = [
+            z - (u + drop) for z, u, drop in zip(displacement, rail, drops, strict=True)
+        ]
+
+    def _check_step(self, time: float, step_size: float) -> None:
+        """Refuse a step that does not join the last one or has no proper length."""
+        self._require_started()
+        if not math.isclose(time, self._time, rel_tol=_TIME_TOLERANCE, abs_tol=_TIME_TOLERANCE):
+            raise ValueError(
+                f"the step starts at {time!r} s, the vehicle is at {self._time!r} s; "
+                "steps must join: restore the state of that time first"
+            )
+        if not (math.isfinite(step_size) and step_size > 0.0):
+            raise ValueError(
+                f"the step size is {step_size:g} s; it must be a finite number above zero"
+            )
+
+    def _require_started(self) -> None:
+        if not self._displacement:
+            raise RuntimeError("the vehicle has no state yet: call initialise first")
