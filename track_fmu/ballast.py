@@ -45,14 +45,22 @@ class PolynomialBallast:
         """Force increment [N], Eq. (27) + (30); see `ComponentLaw.force`."""
         del support  # every support is alike
         x = np.maximum(deformation, 0.0)
-        secant = x * (self.alpha + x * (self.beta + x * self.delta))
-        return secant * (x + self.tau * rate)
+        return self._secant(x) * (x + self.tau * rate)
 
     def stiffness(self, deformation: FloatArray, support: IntArray) -> FloatArray:
         """Tangent stiffness of Eq. (27) [N/m]; see `ComponentLaw.stiffness`."""
         del support
         x = np.maximum(deformation, 0.0)
         return x * (2.0 * self.alpha + x * (3.0 * self.beta + x * 4.0 * self.delta))
+
+    def damping(self, deformation: FloatArray, support: IntArray) -> FloatArray:
+        """Damping of Eq. (30) [N s/m]; see `ComponentLaw.damping`."""
+        del support
+        return self.tau * self._secant(np.maximum(deformation, 0.0))
+
+    def _secant(self, x: FloatArray) -> FloatArray:
+        """Secant stiffness, Eq. (27) over x [N/m]."""
+        return x * (self.alpha + x * (self.beta + x * self.delta))
 
 
 def secant_displacement(

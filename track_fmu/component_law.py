@@ -30,3 +30,7 @@ class ComponentLaw(Protocol):
     def stiffness(self, deformation: FloatArray, support: IntArray) -> FloatArray:
         """Derivative of the force increment by the deformation at rest [N/m], shape (c,)."""
         ...
+
+    def damping(self, deformation: FloatArray, support: IntArray) -> FloatArray:
+        """Derivative of the force increment by the rate at rest [N s/m], shape (c,)."""
+        ...

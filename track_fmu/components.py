@@ -58,10 +58,17 @@ class ActiveComponents:
         return total
 
     def stiffness(self, deformation: FloatArray) -> FloatArray:
-        """Tangent stiffness of the increments [N/m], shape (c,)."""
+        """Tangent stiffness of the increments at rest [N/m], shape (c,)."""
         total = np.empty(self.count)
         for group in self._groups:
             total[group.part] = group.law.stiffness(deformation[group.part], group.support)
+        return total
+
+    def damping(self, deformation: FloatArray) -> FloatArray:
+        """Tangent damping of the increments at rest [N s/m], shape (c,)."""
+        total = np.empty(self.count)
+        for group in self._groups:
+            total[group.part] = group.law.damping(deformation[group.part], group.support)
         return total
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+
 from .assembly import IntArray
 from .beam_element import FloatArray
 
@@ -22,8 +24,8 @@ class CharacteristicPad:
     ----------
     spring, spring_stiffness : callable
         ``f(x)`` [N] and ``df/dx`` [N/m] for the pad compression ``x`` [m].
-    damper : callable
-        ``g(x')`` [N] for the compression rate [m/s].
+    damper, damper_damping : callable
+        ``g(x')`` [N] and ``dg/dx'`` [N s/m] for the compression rate [m/s].
     linear_stiffness, linear_damping : float
         Of the pads in the modal model [N/m], [N s/m].
     """
@@ -31,6 +33,7 @@ class CharacteristicPad:
     spring: Characteristic
     spring_stiffness: Characteristic
     damper: Characteristic
+    damper_damping: Characteristic
     linear_stiffness: float
     linear_damping: float
 
@@ -44,3 +47,8 @@ class CharacteristicPad:
         """Tangent stiffness of the increment [N/m]; see `ComponentLaw.stiffness`."""
         del support
         return self.spring_stiffness(deformation) - self.linear_stiffness
+
+    def damping(self, deformation: FloatArray, support: IntArray) -> FloatArray:
+        """Damping of the increment at rest [N s/m]; see `ComponentLaw.damping`."""
+        del support
+        return self.damper_damping(np.zeros_like(deformation)) - self.linear_damping

@@ -24,6 +24,11 @@ from track_fmu.modal import ModalBasis, compute_basis
 from track_fmu.parameters import TrackParameters
 
 CACHE_VARIABLE = "RAILCOSIM_CACHE"
+# read while the modules are being loaded: the folder of an FMU may be gone later
+PROGRAM = b"".join(
+    Path(str(module.__file__)).read_bytes()
+    for module in (beam_element, assembly, eigensolver, modal)
+)
 
 
 def cache_directory() -> Path:
@@ -42,8 +47,7 @@ def cache_directory() -> Path:
 def basis_key(parameters: TrackParameters, mode_pairs: int) -> str:
     """Hash of all that determines the basis."""
     digest = hashlib.sha256(f"numpy {np.__version__} scipy {scipy.__version__}".encode())
-    for module in (beam_element, assembly, eigensolver, modal):
-        digest.update(Path(str(module.__file__)).read_bytes())
+    digest.update(PROGRAM)
     for name, value in sorted(asdict(parameters).items()):
         digest.update(f"{name}={value!r};".encode())
     digest.update(f"mode_pairs={mode_pairs}".encode())

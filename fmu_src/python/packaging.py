@@ -82,6 +82,10 @@ if {package}.BUILD != "{build}":
         "{name}: code of another build ({package}) is already loaded; start a new process"
     )
 
+# For every instance, pythonfmu 0.7 executes this file and then gives back a reference to its
+# namespace that it never took (PythonFMU issue 228); without this one the next instance fails.
+globals().setdefault("namespaces", []).append(globals())
+
 
 class {name}({base}):
     """The slave with the structure that was fixed when it was built."""

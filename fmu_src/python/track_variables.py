@@ -21,7 +21,7 @@ TABLE_1 = (
     ("ballast_stiffness", "N/m", "Linear stiffness of ballast and subgrade under a rail seat"),
     ("ballast_damping", "N.s/m", "Linear viscous damping of ballast and subgrade"),
 )
-FIRST_WHEEL = 12.7  # m; the demonstration example starts 3.9 m before its flat at 16.6 m
+APPROACH = 3.875  # m before the middle of the track; the demonstration example starts at 12.7 m
 AXLE_BASE = 1.8  # m
 STATIC_WHEEL_LOAD = 117_720.0  # N
 
@@ -79,7 +79,7 @@ def _parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
         Variable(
             name="mode_pairs",
             causality="parameter",
-            start=150,
+            start=min(150, 2 * (structure.elements - 1) + structure.supports),
             description="Number of retained pairs of complex modes",
         ),
         Variable(
@@ -102,8 +102,7 @@ def _parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
             description="Speed with which the static deflection moves along at the start",
         ),
     ]
-    middle = (structure.bays // 2 + 0.5) * structure.sleeper_spacing
-    offsets = [0.0, -0.5, 0.5]
+    middle, offsets = _middle(structure), [0.0, -0.5, 0.5]
     for k in range(gauges):
         offset = offsets[k] if k < len(offsets) else k - 2.0
         variables.append(
@@ -130,7 +129,7 @@ def _inputs(structure: TrackParameters, wheels: int) -> list[Variable]:
             nominal=1.0,
             minimum=0.0,
             maximum=structure.length,
-            start=max(FIRST_WHEEL - i * AXLE_BASE, 0.0),
+            start=max(_middle(structure) - APPROACH - i * AXLE_BASE, 0.0),
             description=f"Track position of wheel {i + 1}, from the clamped end of the rail",
         )
         for i in range(wheels)
@@ -187,3 +186,8 @@ def _outputs(structure: TrackParameters, wheels: int, gauges: int) -> list[Varia
         for part, name, group, count, unit, nominal, description in kinds
         for i in range(count)
     ]
+
+
+def _middle(structure: TrackParameters) -> float:
+    """Middle of the bay behind the middle of the track, the 26th of 50 [m]."""
+    return (structure.bays // 2 + 0.5) * structure.sleeper_spacing

@@ -43,6 +43,8 @@ def test_stiffness_is_the_derivative_of_the_force():
     ahead, behind = (BALLAST.force(x + d, rest, SUPPORTS[:3]) for d in (step, -step))
     slope = (ahead - behind) / (2 * step)
     assert BALLAST.stiffness(x, SUPPORTS[:3]) == pytest.approx(slope, rel=1e-6)
+    moving = BALLAST.force(x, rest + 0.1, SUPPORTS[:3]) - BALLAST.force(x, rest, SUPPORTS[:3])
+    assert BALLAST.damping(x, SUPPORTS[:3]) == pytest.approx(moving / 0.1, rel=1e-9)
 
 
 def test_a_linear_pad_characteristic_has_no_increment():
@@ -50,6 +52,7 @@ def test_a_linear_pad_characteristic_has_no_increment():
         spring=lambda x: 80e6 * x,
         spring_stiffness=lambda x: np.full_like(x, 80e6),
         damper=lambda v: 15e3 * v,
+        damper_damping=lambda v: np.full_like(v, 15e3),
         linear_stiffness=80e6,
         linear_damping=15e3,
     )

@@ -266,6 +266,7 @@ def test_pads_changed_by_increments_are_pads_changed_in_the_matrices(short):
         spring=lambda x: 160e6 * x,
         spring_stiffness=lambda x: np.full_like(x, 160e6),
         damper=lambda v: 30e3 * v,
+        damper_damping=lambda v: np.full_like(v, 30e3),
         linear_stiffness=80e6,
         linear_damping=15e3,
     )
