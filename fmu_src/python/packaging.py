@@ -112,7 +112,8 @@ def fmu_contents(kind: str, structure: Mapping[str, int]) -> dict[str, bytes]:
         for path in sorted(Path(str(pythonfmu.__file__)).parent.glob("*.py"))
     }
     described = "".join(f"{name}={value};" for name, value in sorted(structure.items()))
-    build = content_hash(sources | pythonfmu_sources | {"structure": described.encode()})
+    fixed = {"structure": described.encode(), "slave file": SLAVE_FILE.encode()}
+    build = content_hash(sources | pythonfmu_sources | _libraries(recipe.name) | fixed)
     package = f"railcosim_{kind}_{build[:12]}"
     module = f"{package}_slave"
     slave = SLAVE_FILE.format(

@@ -128,7 +128,6 @@ def _inputs(structure: TrackParameters, wheels: int) -> list[Variable]:
             unit="m",
             nominal=1.0,
             minimum=0.0,
-            maximum=structure.length,
             start=max(_middle(structure) - APPROACH - i * AXLE_BASE, 0.0),
             description=f"Track position of wheel {i + 1}, from the clamped end of the rail",
         )

@@ -1,0 +1,53 @@
+# Every target sets up .venv first; after that nothing here needs the network.
+#   make run      the wheel-flat passage: out/passage.nc and out/passage.png
+#   make test     format, lint, types and the quick tests
+#   make check    the same with the slow tests
+#   make bench    the benchmarks, one table each
+#   make fmus     the FMUs, into dist/
+# PYTHON=/path/to/python3 chooses the interpreter that makes .venv.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+INSTALLED := $(VENV)/installed-pyproject.toml
+
+# The matrices are small: BLAS threads cost more than they bring, most of all beside `pytest -n`.
+export OPENBLAS_NUM_THREADS := 1
+
+.PHONY: run test check bench fmus lint
+.DELETE_ON_ERROR:
+
+run: $(INSTALLED)
+	@mkdir -p out
+	$(BIN)/railcosim run --output out/passage.nc --plot out/passage.png
+	@echo "written: out/passage.nc and out/passage.png"
+
+test: lint
+	$(BIN)/python -m pytest -n 2
+
+check: lint
+	$(BIN)/python -m pytest -n 2 -m "slow or not slow"
+
+lint: $(INSTALLED)
+	$(BIN)/ruff format --check
+	$(BIN)/ruff check
+	$(BIN)/mypy --strict
+
+bench: $(INSTALLED)
+	@set -e; for script in benchmarks/*.py; do echo "$$script"; $(BIN)/python "$$script"; done
+
+fmus: $(INSTALLED)
+	$(BIN)/railcosim build
+
+# The stamp is the pyproject.toml that was installed: a checkout that only touches the file's date installs nothing.
+$(INSTALLED): pyproject.toml
+	@if ! cmp -s pyproject.toml $@; then \
+	  $(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
+	    { echo "railcosim needs Python 3.11 or newer, and '$(PYTHON)' is not: install it or run make PYTHON=/path/to/python3.11" >&2; exit 1; }; \
+	  $(PYTHON) -c 'import ensurepip, venv' 2>/dev/null || \
+	    { echo "'$(PYTHON)' cannot make a virtual environment: install its venv package (on Debian: apt install python3-venv)" >&2; exit 1; }; \
+	  echo "setting up $(VENV), once; this takes a minute or two" && \
+	  $(PYTHON) -m venv $(VENV) && \
+	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'; \
+	fi
+	@cp pyproject.toml $@

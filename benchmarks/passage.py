@@ -1,0 +1,66 @@
+"""Cost and accuracy of the wheel-flat passage for several settings of the master.
+
+    python benchmarks/passage.py
+
+Every row is the paper's case (40 km/h, haversine flat, state-dependent track). The peak error is
+against Newton coupling with fixed steps of 20 us; real-time factors compare on one machine only.
+"""
+
+from __future__ import annotations
+
+import os
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is loaded
+
+from rich.console import Console
+from rich.table import Table
+
+from railcosim.passage import run_passage
+from railcosim.scenario_file import read_scenario
+from railcosim.summary import Summary, summarise
+
+REFERENCE = ("master.step=2e-5",)
+CASES = {
+    "newton, tolerance 1e-2": ("master.tolerance=1e-2",),
+    "newton, tolerance 5e-3 (default)": (),
+    "newton, tolerance 2.5e-3": ("master.tolerance=2.5e-3",),
+    "newton, 200 us": ("master.step=2e-4",),
+    "newton, 100 us": ("master.step=1e-4",),
+    "newton, 50 us": ("master.step=5e-5",),
+    "gauss_seidel, 25 us": ("master.step=2.5e-5", "master.algorithm=gauss_seidel"),
+    "jacobi, 10 us": ("master.step=1e-5", "master.algorithm=jacobi"),
+}
+
+
+def run(settings: tuple[str, ...]) -> Summary:
+    """One passage."""
+    return summarise(run_passage(read_scenario(None, settings)))
+
+
+def main() -> None:
+    """Print the table."""
+    table = Table(title="Wheel-flat passage, Python FMUs")
+    table.add_column("master")
+    for heading in ("wall s / simulated s", "accepted", "rejected", "steps of each FMU", "peak kN",
+                    "peak error %"):  # fmt: skip
+        table.add_column(heading, justify="right")
+    reference = run(REFERENCE)
+    for name, settings in {**CASES, "newton, 20 us (reference)": REFERENCE}.items():
+        summary = reference if settings is REFERENCE else run(settings)
+        peak, exact = summary.peak_contact_force, reference.peak_contact_force
+        assert peak is not None
+        assert exact is not None
+        table.add_row(
+            name,
+            f"{summary.wall_time / summary.simulated_time:.1f}",
+            f"{summary.steps.accepted}",
+            f"{sum(summary.steps.rejected.values())}",
+            f"{summary.steps.iterations}",
+            f"{peak / 1e3:.2f}",
+            f"{100.0 * (peak / exact - 1.0):+.3f}",
+        )
+    Console(width=120).print(table)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,150 @@
+"""The command line: `railcosim run` and `railcosim build`."""
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+import xarray as xr
+from rich.console import Console
+
+from build_fmus import default_directory
+
+from . import __version__
+from .errors import InputError, RunError
+from .figures import describe, draw_passage
+from .output import DATA_SUFFIXES, FIGURE_SUFFIXES, check_writable, write_dataset, write_figure
+from .passage import build_for, run_passage
+from .progress import progress_bar
+from .scenario import Scenario
+from .scenario_file import read_scenario
+from .summary import summarise
+from .summary_table import summary_table
+
+app = typer.Typer(
+    name="railcosim",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+
+class FmuKind(StrEnum):
+    """Which build of the FMUs runs."""
+
+    PYTHON = "python"
+
+
+def main() -> None:
+    """Run the command line; the process ends with 0 done, 1 the run failed, 2 wrong input."""
+    app()
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"railcosim {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _railcosim(
+    *,
+    _: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_show_version, is_eager=True, help="Show the version and stop."
+        ),
+    ] = False,
+) -> None:
+    """Vertical train-track interaction as a co-simulation of two FMUs."""
+
+
+@app.command()
+def run(
+    scenario: Annotated[
+        Path | None, typer.Argument(metavar="SCENARIO.toml", help="The paper's case without.")
+    ] = None,
+    *,
+    overrides: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="Replace a key, as in flat.depth=1e-3."),
+    ] = None,
+    fmus: Annotated[FmuKind, typer.Option(help="Which build of the FMUs runs.")] = FmuKind.PYTHON,
+    output: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Result: .nc, .csv or .parquet.")
+    ] = None,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Figure: .png, .pdf or .svg.")
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the numbers as one JSON object, SI units.")
+    ] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", help="No progress and no table.")] = False,
+) -> None:
+    """Co-simulate one passage of a vehicle over a track."""
+    with _exit_codes():
+        case = read_scenario(scenario, overrides or ())
+        if output is not None:
+            check_writable(output, option="--output", suffixes=DATA_SUFFIXES)
+        if plot is not None:
+            check_writable(plot, option="--plot", suffixes=FIGURE_SUFFIXES)
+        passage = _followed_run(case, fmus, quiet=quiet)
+        if output is not None:
+            write_dataset(passage, output)
+        if plot is not None:
+            write_figure(draw_passage(passage), plot)
+        summary = summarise(passage)
+        if as_json:
+            typer.echo(json.dumps(summary.as_dict(), indent=2, allow_nan=False))
+        elif not quiet:
+            Console().print(summary_table(summary, describe(case)))
+        if not passage.attrs["complete"]:
+            raise RunError(
+                f"the run ended at t = {summary.simulated_time:.6g} s, because "
+                f"{passage.attrs['stop_reason']}; the result reaches up to there"
+            )
+
+
+@app.command()
+def build(
+    directory: Annotated[
+        Path | None, typer.Option("--output", metavar="FOLDER", help="Where to; dist/ without.")
+    ] = None,
+) -> None:
+    """Build the FMUs of the paper's case where they are missing or stale."""
+    with _exit_codes():
+        paths = build_for(Scenario(), directory=directory or default_directory(), notify=_say)
+        for path in (paths.track, paths.vehicle):
+            typer.echo(path)
+
+
+def _followed_run(case: Scenario, fmus: FmuKind, *, quiet: bool) -> xr.Dataset:
+    """Run with a progress bar on stderr, or without a word."""
+    if quiet:
+        return run_passage(case, fmus=fmus.value)
+    with progress_bar(Console(stderr=True)) as report:
+        return run_passage(case, fmus=fmus.value, notify=_say, report=report)
+
+
+@contextmanager
+def _exit_codes() -> Iterator[None]:
+    """Turn what went wrong into one sentence on stderr and an exit code."""
+    try:
+        yield
+    except InputError as error:
+        _say(str(error))
+        raise typer.Exit(2) from error
+    except RunError as error:
+        _say(str(error))
+        raise typer.Exit(1) from error
+    except KeyboardInterrupt as error:
+        _say("interrupted before there was anything to keep")
+        raise typer.Exit(1) from error
+
+
+def _say(message: str) -> None:
+    typer.echo(f"railcosim: {message}", err=True)

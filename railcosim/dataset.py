@@ -1,0 +1,144 @@
+"""The result of a passage: labelled arrays with their meaning, and how they came about."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+
+from .scenario_file import to_toml
+from .signals import COMPRESSION, FORWARDS, SIGNALS
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from .scenario import Scenario
+    from .signals import Dimension
+
+ATTEMPT_COLUMNS = {
+    "time": ("s", "start of the attempt"),
+    "step_size": ("s", "size of the attempted step"),
+    "cause": ("1", "accepted, or why the attempt was rejected"),
+    "iterations": ("1", "how often the FMUs were stepped"),
+    "error_norm": ("1", "difference of prediction and result over the tolerance"),
+    "residual_norm": ("1", "what is left of the coupling equations, over the nominal values"),
+}
+"""Columns of the step log with their units and meaning."""
+
+
+def count(scenario: Scenario) -> dict[Dimension, int]:
+    """Return how many wheels, sleepers and gauges a passage has."""
+    return {
+        "wheel": scenario.vehicle.wheels,
+        "sleeper": scenario.track.bays - 1,
+        "gauge": len(scenario.gauge_positions),
+    }
+
+
+def assemble(
+    scenario: Scenario,
+    *,
+    times: NDArray[np.float64],
+    series: Mapping[str, NDArray[np.float64]],
+    attempts: Mapping[str, NDArray[np.generic]],
+    attributes: Mapping[str, str | int | float],
+) -> xr.Dataset:
+    """Label the records of a run.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        What was run.
+    times : ndarray, shape (n,)
+        Accepted times [s].
+    series : mapping of str to ndarray
+        Every one of `SIGNALS` by name, of shape (n, wheels), (n, sleepers) or (n, gauges).
+    attempts : mapping of str to ndarray
+        The columns `ATTEMPT_COLUMNS` of the step log, each of shape (m,); causes are texts.
+    attributes : mapping
+        Versions, identities of the FMUs, statistics.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimensions ``time``, ``wheel``, ``sleeper``, ``gauge`` and ``attempt``; units, long name and
+        sign on every variable.
+    """
+    variables = {
+        signal.name: (
+            ("time", signal.dim),
+            series[signal.name].astype(bool if signal.name == "in_contact" else float),
+            signal.attributes,
+        )
+        for signal in SIGNALS
+    }
+    log = {
+        f"attempt_{name}": ("attempt", attempts[name], _attributes(units, meaning))
+        for name, (units, meaning) in ATTEMPT_COLUMNS.items()
+    }
+    flat = series["wheel_position"][:, scenario.flat.wheel - 1]
+    return xr.Dataset(
+        variables | log | _constants(scenario),
+        coords=_coordinates(scenario, times, flat - scenario.flat_position),
+        attrs={
+            "Conventions": "CF-1.11",
+            "title": "Passage of wheels over a discretely supported rail",
+            "scenario": to_toml(scenario),
+            **attributes,
+        },
+    )
+
+
+def _coordinates(
+    scenario: Scenario, times: NDArray[np.float64], distance: NDArray[np.float64]
+) -> dict[str, object]:
+    """Label the dimensions by numbers from 1, and by the positions they stand for."""
+    numbers = {
+        dim: (dim, np.arange(1, n + 1), _attributes("1", f"number of the {dim}"))
+        for dim, n in count(scenario).items()
+    }
+    spacing = scenario.track.sleeper_spacing
+    sleepers = spacing * np.arange(1, scenario.track.bays)
+    gauges = np.array(scenario.gauge_positions)
+    return numbers | {
+        "time": ("time", times, _attributes("s", "time since the start of the run")),
+        "distance": (
+            "time",
+            distance,
+            _attributes("m", "distance of the flat's wheel from the flat's centre", FORWARDS),
+        ),
+        "sleeper_position": (
+            "sleeper",
+            sleepers,
+            _attributes("m", "position of the sleeper along the rail", FORWARDS),
+        ),
+        "gauge_position": (
+            "gauge",
+            gauges,
+            _attributes("m", "position of the gauge along the rail", FORWARDS),
+        ),
+    }
+
+
+def _constants(scenario: Scenario) -> dict[str, object]:
+    """Name what the series are measured against."""
+    return {
+        "flat_wheel": ((), scenario.flat.wheel, _attributes("1", "number of the flat's wheel")),
+        "flat_position": (
+            (),
+            scenario.flat_position,
+            _attributes("m", "position where the flat's centre meets the rail", FORWARDS),
+        ),
+        "static_wheel_load": (
+            (),
+            scenario.vehicle.static_wheel_load,
+            _attributes("N", "static wheel-rail force of a wheel", COMPRESSION),
+        ),
+    }
+
+
+def _attributes(units: str, long_name: str, sign: str = "none") -> dict[str, str]:
+    return {"units": units, "long_name": long_name, "sign": sign}

@@ -1,0 +1,176 @@
+"""What a key of a scenario file may hold, declared beside the key and checked in one place."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import MISSING, Field, dataclass, fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, get_args, get_origin, get_type_hints
+
+from .errors import InputError
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+
+LONGEST = 10**300
+"""Integers from here on are no numbers: they do not fit into a float."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Number:
+    """Limits and unit of a numeric key; booleans and texts are no numbers.
+
+    Attributes
+    ----------
+    unit : str
+        Unit shown in messages, empty for a pure number.
+    above, at_least, at_most : float, optional
+        Limits; ``above`` is exclusive.
+    """
+
+    unit: str = ""
+    above: float | None = None
+    at_least: float | None = None
+    at_most: float | None = None
+
+    def show(self, value: float) -> str:
+        """Write ``value`` with the unit."""
+        return f"{value:.6g} {self.unit}".rstrip()
+
+    def complaint(self, value: float) -> str | None:
+        """Say which limit ``value`` breaks, or None.
+
+        Returns
+        -------
+        str or None
+            The end of a sentence that begins with "must be".
+        """
+        if not math.isfinite(value):
+            return "a finite number"
+        if self.above is not None and value <= self.above:
+            return f"above {self.show(self.above)}"
+        if self.at_least is not None and value < self.at_least:
+            return f"at least {self.show(self.at_least)}"
+        if self.at_most is not None and value > self.at_most:
+            return f"at most {self.show(self.at_most)}"
+        return None
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """A text key with a few allowed values.
+
+    Attributes
+    ----------
+    values : tuple of str
+        The allowed texts.
+    or_csv : bool
+        Whether the path of a .csv file is allowed too.
+    """
+
+    values: tuple[str, ...]
+    or_csv: bool = False
+
+    def complaint(self, value: str) -> str | None:
+        """Say what is allowed where ``value`` is not, or None."""
+        if value in self.values or (self.or_csv and is_csv(value)):
+            return None
+        return "one of " + ", ".join(self.values) + (" or a FILE.csv" if self.or_csv else "")
+
+
+@dataclass(frozen=True, slots=True)
+class CsvFile:
+    """A text key that holds the path of a .csv file; empty means no file."""
+
+    def complaint(self, value: str) -> str | None:
+        """Say that ``value`` is no CSV path, or None."""
+        return None if not value or is_csv(value) else "the path of a .csv file"
+
+
+def is_csv(value: str) -> bool:
+    """Tell whether a text names a CSV file."""
+    return Path(value).suffix.lower() == ".csv"
+
+
+def holds_file(section: type[DataclassInstance], key: str, value: str) -> bool:
+    """Tell whether ``value`` is the path of a file, as the key's annotation has it."""
+    _, rule = _kind_and_rule(get_type_hints(section, include_extras=True)[key])
+    named = isinstance(rule, CsvFile) or (isinstance(rule, Choice) and rule.or_csv)
+    return named and is_csv(value)
+
+
+def check_fields(section: DataclassInstance, name: str) -> None:
+    """Check every field of a section against its annotation; whole numbers become floats where due.
+
+    Parameters
+    ----------
+    section : dataclass instance
+        Its fields are annotated ``Annotated[type, Number | Choice | CsvFile]`` or plain ``bool``.
+    name : str
+        Name of the section in the file, for the messages.
+
+    Raises
+    ------
+    InputError
+        For a wrong type or a value outside its limits.
+    """
+    hints = get_type_hints(type(section), include_extras=True)
+    for item in fields(section):
+        value = getattr(section, item.name)
+        kind, rule = _kind_and_rule(hints[item.name])
+        if value is None and type(None) in kind:
+            continue
+        key = f"{name}.{item.name}"
+        wanted = _type_complaint(value, kind, rule)
+        if wanted is None and float in kind:
+            value = float(value)
+            object.__setattr__(section, item.name, value)
+        if wanted is None and rule is not None:
+            wanted = rule.complaint(value)
+        if wanted is not None:
+            shown = (
+                rule.show(value) if isinstance(rule, Number) and _is_number(value) else repr(value)
+            )
+            raise InputError(f"{key} is {shown} but must be {wanted}{_default_hint(item, rule)}")
+
+
+def _kind_and_rule(
+    hint: object,
+) -> tuple[tuple[type, ...], Number | Choice | CsvFile | None]:
+    """Split an annotation into the types a value may have and the rule it obeys."""
+    rule = None
+    if get_origin(hint) is Annotated:
+        hint, rule = get_args(hint)
+    kinds = get_args(hint) or (hint,)
+    return kinds, rule
+
+
+def _is_number(value: object) -> bool:
+    """Tell whether a value is a number; TOML's integers may be longer than any float."""
+    if isinstance(value, int):
+        return not isinstance(value, bool) and abs(value) < LONGEST
+    return isinstance(value, float)
+
+
+def _type_complaint(value: object, kind: tuple[type, ...], rule: object) -> str | None:
+    """Say which type is wanted where ``value`` has another one, or None."""
+    if bool in kind:
+        return None if isinstance(value, bool) else "true or false"
+    if float in kind:
+        unit = f" in {rule.unit}" if isinstance(rule, Number) and rule.unit else ""
+        return None if _is_number(value) else f"a number{unit}"
+    if int in kind:
+        return None if isinstance(value, int) and _is_number(value) else "a whole number"
+    if isinstance(value, str):
+        return None
+    return rule.complaint("") or "a text" if isinstance(rule, Choice) else "a text"
+
+
+def _default_hint(item: Field[object], rule: object) -> str:
+    """Name the default of a key as the remedy of a wrong value."""
+    if item.default is MISSING or item.default is None or item.default == "":
+        return ""
+    if isinstance(rule, Number) and isinstance(item.default, (int, float)):
+        return f" (default {rule.show(item.default)})"
+    return f" (default {str(item.default).lower()})"

@@ -1,0 +1,86 @@
+"""The CSV files that a scenario names, read before the run so that a bad one costs no run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeVar, cast
+
+from fmu_src.python.tables import read_table
+from vehicle_fmu.irregularity import RailIrregularity
+from vehicle_fmu.parameters import FlatParameters
+from vehicle_fmu.wheel_profile import WheelProfileTable, check_flat
+
+from .errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from vehicle_fmu.parameters import FlatShape
+
+    from .scenario import Scenario
+
+T = TypeVar("T")
+
+
+def read_as(kind: Callable[..., T], path: str, columns: Sequence[str]) -> T:
+    """Read a CSV file into a table.
+
+    Parameters
+    ----------
+    kind : callable
+        Table whose parameters are the columns.
+    path : str
+        The file.
+    columns : sequence of str
+        Names of its columns, from the left.
+
+    Raises
+    ------
+    InputError
+        For a file that cannot be read or does not hold such a table.
+    """
+    try:
+        values = read_table(path, columns)
+    except ValueError as error:
+        raise InputError(str(error)) from error
+    try:
+        return kind(**values)
+    except ValueError as error:
+        raise InputError(f"table {path}: {error}") from error
+
+
+def check_profiles(scenario: Scenario) -> None:
+    """Read the measured flat and the rail irregularity, and see that the flat fits on the wheel.
+
+    Raises
+    ------
+    InputError
+        For a file that is no such table, or a flat that does not fit.
+    """
+    vehicle, flat = scenario.vehicle, scenario.flat
+    if vehicle.rail_irregularity:
+        read_as(RailIrregularity, vehicle.rail_irregularity, ("position", "drop"))
+    if flat.shape == "none":
+        return
+    table = None
+    begins = -0.5 * flat.length
+    if flat.is_measured:
+        table = read_as(WheelProfileTable, flat.shape, ("distance", "drop"))
+        begins = float(table.distance[0])
+    shape = cast("FlatShape", "table" if flat.is_measured else flat.shape)
+    parameters = FlatParameters(
+        shape=shape,
+        length=flat.length,
+        depth=flat.depth,
+        wheel=flat.wheel,
+        periodic=flat.periodic,
+        rolled=flat.rolled,
+    )
+    try:
+        check_flat(parameters, table, radius=vehicle.wheel_radius, wheels=vehicle.wheels)
+    except ValueError as error:
+        raise InputError(str(error)) from error
+    if scenario.run.approach < -begins:
+        raise InputError(
+            f"run.approach is {scenario.run.approach:g} m but the flat begins {-begins:g} m before "
+            "its centre: start earlier, on the round wheel"
+        )

@@ -1,0 +1,156 @@
+"""Results on disk: checked before the run, written in one piece after it."""
+
+from __future__ import annotations
+
+import csv
+import importlib.util
+import os
+import tempfile
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .errors import InputError, RunError
+from .table import columns
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    import numpy as np
+    import xarray as xr
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+DATA_SUFFIXES = (".nc", ".csv", ".parquet")
+"""Kinds of result file."""
+
+FIGURE_SUFFIXES = (".png", ".pdf", ".svg")
+"""Kinds of figure file."""
+
+
+def check_writable(path: Path, *, option: str, suffixes: tuple[str, ...]) -> None:
+    """Find out before a run whether its result can be written after it.
+
+    Parameters
+    ----------
+    path : Path
+        File to be written.
+    option : str
+        Command line option that gave it, for the message.
+    suffixes : tuple of str
+        Allowed endings.
+
+    Raises
+    ------
+    InputError
+        For another ending, a missing or read-only folder, a folder in the file's place, or a
+        missing library.
+    """
+    if path.suffix.lower() not in suffixes:
+        raise InputError(
+            f"{option} {path} ends with {path.suffix!r} but must end with one of "
+            f"{', '.join(suffixes)}: rename it"
+        )
+    if path.is_dir():
+        raise InputError(f"{option} {path} is a folder: name a file in it")
+    if not path.parent.is_dir():
+        raise InputError(f"{option} {path} lies in a folder that does not exist: create it first")
+    if path.suffix.lower() == ".parquet" and importlib.util.find_spec("pyarrow") is None:
+        raise InputError(
+            f"{option} {path} needs the library pyarrow: pip install 'railcosim[parquet]', or "
+            "write a .nc or .csv file"
+        )
+    try:
+        with tempfile.TemporaryFile(dir=path.parent):
+            pass
+        writable = not path.exists() or os.access(path, os.W_OK)
+    except OSError:
+        writable = False
+    if not writable:
+        raise InputError(f"{option} {path} is not writable: choose another place")
+
+
+def write_dataset(passage: xr.Dataset, path: Path) -> None:
+    """Write a passage in one piece: everything as NetCDF-4, or its time series as CSV or Parquet.
+
+    Parameters
+    ----------
+    passage : xarray.Dataset
+        Result of a passage.
+    path : Path
+        File that ends with .nc, .csv or .parquet.
+
+    Raises
+    ------
+    RunError
+        Where it cannot be written; what the file held before is still there then.
+    """
+    writers: dict[str, Callable[[xr.Dataset, Path], None]] = {
+        ".nc": _write_netcdf,
+        ".csv": _write_csv,
+        ".parquet": _write_parquet,
+    }
+    with _replacing(path) as temporary:
+        writers[path.suffix.lower()](passage, temporary)
+
+
+def write_figure(figure: Figure, path: Path) -> None:
+    """Write a figure in one piece, in the format that the file's ending names.
+
+    Raises
+    ------
+    RunError
+        Where it cannot be written.
+    """
+    with _replacing(path) as temporary:
+        figure.savefig(temporary, dpi=150)
+
+
+@contextmanager
+def _replacing(path: Path) -> Iterator[Path]:
+    """Yield a temporary file that takes the place of ``path`` if the block succeeds."""
+    try:
+        with tempfile.TemporaryDirectory(dir=path.parent, prefix=f".{path.name}.") as folder:
+            temporary = Path(folder) / path.name
+            yield temporary
+            temporary.replace(path)
+    except OSError as error:
+        raise RunError(
+            f"{path} cannot be written: {error.strerror or error}; free some space or choose "
+            "another place"
+        ) from error
+
+
+def _write_netcdf(passage: xr.Dataset, path: Path) -> None:
+    passage.to_netcdf(path, engine="h5netcdf")
+
+
+def _write_csv(passage: xr.Dataset, path: Path) -> None:
+    """Write one row per accepted time; the shortest digits that give the same number back."""
+    series = list(columns(passage))
+    with path.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow([column.label for column in series])
+        writer.writerows(zip(*(_plain(column.values) for column in series), strict=True))
+
+
+def _write_parquet(passage: xr.Dataset, path: Path) -> None:
+    """Write one row per accepted time; units, long names, signs and the scenario as metadata."""
+    import pyarrow as pa  # noqa: PLC0415 - an optional library, looked for by `check_writable`
+    import pyarrow.parquet as pq  # noqa: PLC0415 - likewise
+
+    series = list(columns(passage))
+    schema = pa.schema(
+        [
+            pa.field(c.label, pa.from_numpy_dtype(c.values.dtype), metadata=c.attributes)
+            for c in series
+        ],
+        metadata={key: str(value) for key, value in passage.attrs.items()},
+    )
+    pq.write_table(pa.table([pa.array(c.values) for c in series], schema=schema), path)
+
+
+def _plain(values: NDArray[np.generic]) -> list[float]:
+    """Return Python numbers; a truth as 0 or 1."""
+    numbers: list[float] = (values.astype(int) if values.dtype == bool else values).tolist()
+    return numbers

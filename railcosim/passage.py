@@ -1,0 +1,188 @@
+"""One passage: from a scenario through two FMUs and the master to a result."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+from platform import python_version
+from typing import TYPE_CHECKING
+
+import fmpy
+import numpy as np
+
+import orchestrator
+from build_fmus import Structure, default_directory, ensure_fmus
+from orchestrator import Cause, Master, Recorder
+
+from . import __version__
+from .coupled_system import connect, indicators, master_settings
+from .dataset import assemble, count
+from .errors import InputError, RunError
+from .input_tables import check_profiles
+from .motion import speed_law, travel_time
+from .signals import SIGNALS
+from .watched_control import WatchedControl
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    import xarray as xr
+    from numpy.typing import NDArray
+
+    from build_fmus import FmuPaths
+    from orchestrator import Outcome
+    from vehicle_fmu.speed import SpeedLaw
+
+    from .scenario import Scenario
+    from .signals import Signal
+    from .watched_control import Progress
+
+LIBRARIES = ("numpy", "scipy", "fmpy", "pythonfmu", "xarray")
+"""Libraries whose versions a result names."""
+
+
+def run_passage(
+    scenario: Scenario,
+    *,
+    fmus: str = "python",
+    directory: Path | None = None,
+    notify: Callable[[str], None] | None = None,
+    report: Callable[[Progress], None] | None = None,
+) -> xr.Dataset:
+    """Co-simulate a passage.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        What to run.
+    fmus : str
+        Which build of the FMUs runs: ``python``.
+    directory : Path, optional
+        Where the FMUs are kept; `build_fmus.default_directory` without.
+    notify : callable, optional
+        Told in a few words when an FMU has to be built.
+    report : callable, optional
+        Told of the progress after every decision of the master.
+
+    Returns
+    -------
+    xarray.Dataset
+        See `dataset.assemble`. Also after Ctrl-C, with the attribute ``complete`` then 0.
+
+    Raises
+    ------
+    InputError
+        For a scenario, a file it names or an FMU that cannot be used.
+    RunError
+        Where the co-simulation cannot go on.
+    """
+    law = speed_law(scenario.vehicle)
+    check_profiles(scenario)
+    paths = build_for(scenario, directory=directory, notify=notify)
+    try:
+        recorder, outcome = _simulate(scenario, law, paths, report)
+    except orchestrator.InputError as error:
+        raise InputError(str(error)) from error
+    except orchestrator.RunError as error:
+        raise RunError(str(error)) from error
+    log = outcome.step_log
+    names = np.array(["accepted", *(cause.name.lower() for cause in Cause)])
+    return assemble(
+        scenario,
+        times=recorder.time,
+        series=_series(scenario, recorder),
+        attempts={name: log[name] for name in log.dtype.names or ()}
+        | {"cause": names[log["cause"]]},
+        attributes={"fmus": fmus, **_provenance(paths), **_statistics(outcome)},
+    )
+
+
+def build_for(
+    scenario: Scenario,
+    *,
+    directory: Path | None = None,
+    notify: Callable[[str], None] | None = None,
+) -> FmuPaths:
+    """Build the FMUs of a scenario's size where they are missing or stale.
+
+    Raises
+    ------
+    RunError
+        Where they cannot be written.
+    """
+    numbers = count(scenario)
+    structure = Structure(
+        bays=scenario.track.bays,
+        elements_per_bay=scenario.track.elements_per_bay,
+        wheels=numbers["wheel"],
+        gauges=numbers["gauge"],
+    )
+    directory = directory or default_directory()
+    try:
+        return ensure_fmus(directory, structure, progress=notify)
+    except OSError as error:
+        raise RunError(
+            f"the FMUs cannot be written to {directory}: {error.strerror or error}; make that "
+            "folder writable"
+        ) from error
+
+
+def _simulate(
+    scenario: Scenario,
+    law: SpeedLaw,
+    paths: FmuPaths,
+    report: Callable[[Progress], None] | None,
+) -> tuple[Recorder, Outcome]:
+    """Run the master over the whole way."""
+    stop_time = travel_time(law, scenario.distance)
+    settings = master_settings(scenario)
+    control = settings.make_controller(stop_time)
+    if report is not None:
+        control = WatchedControl(control, stop_time=stop_time, report=report)
+    recorder = Recorder([path for signal in SIGNALS for path in _paths(scenario, signal)])
+    master = Master(
+        connect(scenario, paths, law),
+        settings,
+        controller=control,
+        events=indicators(scenario.vehicle.wheels),
+        observers=[recorder],
+    )
+    return recorder, master.run(0.0, stop_time)
+
+
+def _paths(scenario: Scenario, signal: Signal) -> list[str]:
+    return [signal.path(k) for k in range(1, count(scenario)[signal.dim] + 1)]
+
+
+def _series(scenario: Scenario, recorder: Recorder) -> dict[str, NDArray[np.float64]]:
+    """Gather the columns of every signal, shape (times, wheels or sleepers or gauges)."""
+    return {
+        signal.name: np.stack([recorder[path] for path in _paths(scenario, signal)], axis=1)
+        for signal in SIGNALS
+    }
+
+
+def _provenance(paths: FmuPaths) -> dict[str, str]:
+    """Say which programs and which FMUs made a result."""
+    libraries = ", ".join(f"{name} {version(name)}" for name in LIBRARIES)
+    return {
+        "source": f"railcosim {__version__}",
+        "versions": f"Python {python_version()}, {libraries}",
+        "track_fmu_guid": fmpy.read_model_description(paths.track).guid,
+        "vehicle_fmu_guid": fmpy.read_model_description(paths.vehicle).guid,
+    }
+
+
+def _statistics(outcome: Outcome) -> dict[str, str | int | float]:
+    """Say how the run went."""
+    counts = outcome.statistics
+    return {
+        "complete": int(outcome.finished),
+        "stop_reason": outcome.reason.value,
+        "simulated_time": outcome.end_time,
+        "wall_time": outcome.wall_time,
+        "iterations": counts.iterations,
+        "switches": counts.switches,
+        "steps_accepted": counts.accepted,
+        **{f"steps_rejected_{cause}": number for cause, number in counts.rejected.items()},
+    }

@@ -1,0 +1,59 @@
+"""The live display of a run on the terminal."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from rich.progress import BarColumn, TextColumn, TimeRemainingColumn
+from rich.progress import Progress as Bars
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from rich.console import Console
+
+    from .watched_control import Progress
+
+
+@contextmanager
+def progress_bar(console: Console) -> Iterator[Callable[[Progress], None]]:
+    """Show a bar with simulated time, step, rejections so far and time left.
+
+    Parameters
+    ----------
+    console : rich.console.Console
+        Where; nothing is shown unless it is a terminal.
+
+    Yields
+    ------
+    callable
+        Takes the progress after every decision of the master.
+    """
+    bars = Bars(
+        TextColumn("passage"),
+        BarColumn(),
+        TextColumn(
+            "t {task.fields[time]:.4f} of {task.total:.4f} s   "
+            "step {task.fields[step]:.1f} us   {task.fields[rejected]} rejected"
+        ),
+        TimeRemainingColumn(),
+        console=console,
+        transient=True,
+        disable=not console.is_terminal,
+    )
+    with bars:
+        task = bars.add_task("passage", total=None, visible=False, time=0.0, step=0.0, rejected=0)
+
+        def report(progress: Progress) -> None:
+            bars.update(
+                task,
+                total=progress.stop_time,
+                completed=progress.time,
+                visible=True,
+                time=progress.time,
+                step=1e6 * progress.step_size,
+                rejected=progress.rejected,
+            )
+
+        yield report

@@ -1,0 +1,135 @@
+"""A passage as the user describes it, checked as a whole."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+from .errors import InputError
+from .master_section import Master
+from .sections import DEFAULT_SPEED_KMH, Flat, Run, Track, Vehicle
+
+BEHIND_MIDSPAN = 0.025
+"""How far behind the middle of its bay the flat's centre meets the rail by default [m]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scenario:
+    """One passage: a track, a vehicle, a flat, the distance rolled and the master's settings.
+
+    Positions are along the rail from its clamped start [m]; wheel 1 leads.
+
+    Attributes
+    ----------
+    track, vehicle, flat, run, master
+        The sections of the scenario file.
+
+    Raises
+    ------
+    InputError
+        Where the sections do not fit together.
+    """
+
+    track: Track = field(default_factory=Track)
+    vehicle: Vehicle = field(default_factory=Vehicle)
+    flat: Flat = field(default_factory=Flat)
+    run: Run = field(default_factory=Run)
+    master: Master = field(default_factory=Master)
+
+    def __post_init__(self) -> None:
+        self._check_flat()
+        self._check_start_of_track()
+        self._check_end_of_track()
+
+    @property
+    def flat_position(self) -> float:
+        """Rail position where the flat's centre meets the rail [m]."""
+        if self.flat.position is not None:
+            return self.flat.position
+        midspan = (self.track.bays // 2 + 0.5) * self.track.sleeper_spacing
+        return round(midspan + BEHIND_MIDSPAN, 9)  # 16.6, not 16.599999999999998
+
+    @property
+    def start_position(self) -> float:
+        """Position of the leading wheel at t = 0 [m]."""
+        ahead = (self.flat.wheel - 1) * self.vehicle.axle_base
+        return self.flat_position - self.run.approach + ahead
+
+    @property
+    def distance(self) -> float:
+        """Distance that every wheel rolls [m]."""
+        return self.run.approach + self.run.departure
+
+    @property
+    def struck_bay(self) -> int:
+        """Bay that holds the flat's position, counted from 1."""
+        bay = math.floor(self.flat_position / self.track.sleeper_spacing) + 1
+        return min(bay, self.track.bays)  # not one more where the quotient is rounded up
+
+    @property
+    def gauge_positions(self) -> tuple[float, float, float]:
+        """Gauge positions [m]: middle of the struck bay, above the sleepers before and after it."""
+        spacing, bay = self.track.sleeper_spacing, self.struck_bay
+        return (bay - 0.5) * spacing, (bay - 1) * spacing, bay * spacing
+
+    def resolved(self) -> Scenario:
+        """Return the same passage with every value that is worked out written into its key."""
+        vehicle, master = self.vehicle, self.master
+        if not vehicle.speed_table:
+            vehicle = replace(vehicle, speed_kmh=vehicle.speed_kmh or DEFAULT_SPEED_KMH)
+        if master.step is None:
+            master = replace(master, max_step=master.largest_step)
+        flat = replace(self.flat, position=self.flat_position)
+        return replace(self, vehicle=vehicle, flat=flat, master=master)
+
+    def _check_flat(self) -> None:
+        """Refuse a flat that its wheel or its track cannot hold."""
+        flat, vehicle, track = self.flat, self.vehicle, self.track
+        if flat.wheel > vehicle.wheels:
+            raise InputError(
+                f"flat.wheel is {flat.wheel} but the vehicle has {vehicle.wheels} wheels: choose "
+                "one of them or raise vehicle.wheels"
+            )
+        if not 0.0 <= self.flat_position <= track.length:
+            raise InputError(
+                f"flat.position is {self.flat_position:g} m but the track reaches from 0 m to "
+                f"{track.length:g} m: put the flat on the track or raise track.bays"
+            )
+        has_length = flat.shape != "none" and not flat.is_measured
+        if has_length and flat.length > track.length:
+            raise InputError(
+                f"flat.length is {flat.length:g} m but must be at most {track.length:g} m, the "
+                "length of the track: shorten the flat"
+            )
+
+    def _check_start_of_track(self) -> None:
+        """Refuse a run that starts with a wheel before the track."""
+        wheel = self.vehicle.wheels
+        start = self.start_position - (wheel - 1) * self.vehicle.axle_base
+        if start >= 0.0:
+            return
+        approach = _rounded_down(self.run.approach + start)
+        remedy = f"shorten run.approach to at most {approach:g} m or " if approach > 0.0 else ""
+        raise InputError(
+            f"wheel {wheel} would start at {start:g} m but the track begins at 0 m: {remedy}move "
+            f"flat.position to at least {-_rounded_down(start - self.flat_position):g} m"
+        )
+
+    def _check_end_of_track(self) -> None:
+        """Refuse a run that leads a wheel beyond the track."""
+        end = self.start_position + self.distance
+        beyond = end - self.track.length
+        if beyond <= 0.0:
+            return
+        departure = _rounded_down(self.run.departure - beyond)
+        remedy = f"shorten run.departure to at most {departure:g} m, " if departure > 0.0 else ""
+        raise InputError(
+            f"wheel 1 would end at {end:g} m but the track ends at {self.track.length:g} m: "
+            f"{remedy}move flat.position to at most "
+            f"{_rounded_down(self.flat_position - beyond):g} m or raise track.bays"
+        )
+
+
+def _rounded_down(length: float) -> float:
+    """Round down to a millimetre, so that following a remedy satisfies the limit."""
+    return math.floor(1000.0 * length + 1e-6) / 1000.0

@@ -1,0 +1,191 @@
+"""Reading a scenario from a TOML file and `key=value` texts, and writing a resolved one."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import tomllib
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from .errors import InputError
+from .fields import holds_file
+from .master_section import Master
+from .scenario import Scenario
+from .sections import Flat, Run, Track, Vehicle
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+SECTIONS: Mapping[str, type[Any]] = {
+    "track": Track,
+    "vehicle": Vehicle,
+    "flat": Flat,
+    "run": Run,
+    "master": Master,
+}
+"""Sections of a scenario file and the classes that check them."""
+
+KEYS: Mapping[str, tuple[str, ...]] = {
+    name: tuple(item.name for item in fields(kind)) for name, kind in SECTIONS.items()
+}
+"""Keys of every section."""
+
+_Values: TypeAlias = dict[str, dict[str, Any]]
+
+
+def read_scenario(path: Path | None = None, overrides: Iterable[str] = ()) -> Scenario:
+    """Read a scenario; what neither the file nor the overrides give keeps its default.
+
+    Parameters
+    ----------
+    path : Path, optional
+        TOML file; the files it names are sought beside it.
+    overrides : iterable of str
+        Texts ``section.key=value`` that replace the file's keys, in this order; the files they
+        name are sought in the working directory.
+
+    Returns
+    -------
+    Scenario
+        Checked as a whole, with absolute paths.
+
+    Raises
+    ------
+    InputError
+        For a missing or malformed file, an unknown key or a value that does not fit.
+    """
+    values: _Values = {name: {} for name in SECTIONS}
+    if path is not None:
+        _put_all(values, _read_toml(path), path.parent)
+    for text in overrides:
+        section, key, value = _parse_override(text)
+        _put(values, section, key, value, Path.cwd())
+    return _build(values)
+
+
+def from_toml(text: str) -> Scenario:
+    """Read the text that `to_toml` writes.
+
+    Raises
+    ------
+    InputError
+        For an unknown key or a value that does not fit.
+    tomllib.TOMLDecodeError
+        For a text that is no TOML.
+    """
+    values: _Values = {name: {} for name in SECTIONS}
+    _put_all(values, tomllib.loads(text), Path.cwd())
+    return _build(values)
+
+
+def to_toml(scenario: Scenario) -> str:
+    """Write every key that a scenario uses, defaults included; reading it gives the same passage.
+
+    Returns
+    -------
+    str
+        TOML text.
+    """
+    resolved = scenario.resolved()
+    blocks = []
+    for name, kind in SECTIONS.items():
+        section = getattr(resolved, name)
+        lines = [f"[{name}]"]
+        for item in fields(kind):
+            value = getattr(section, item.name)
+            if value is not None and value != "":
+                lines.append(f"{item.name} = {_toml_value(value)}")
+        blocks.append("\n".join(lines) + "\n")
+    return "\n".join(blocks)
+
+
+def _build(values: _Values) -> Scenario:
+    return Scenario(**{name: kind(**values[name]) for name, kind in SECTIONS.items()})
+
+
+def _put_all(values: _Values, tables: Mapping[str, Any], folder: Path) -> None:
+    """Put every key of a parsed file in its place."""
+    for section, keys in tables.items():
+        _check_section(section, keys)
+        for key, value in keys.items():
+            _put(values, section, key, value, folder)
+
+
+def _put(values: _Values, section: str, key: str, value: object, folder: Path) -> None:
+    """Put a key in its place, the path of a file made absolute."""
+    _check_section(section, {})
+    if key not in KEYS[section]:
+        name = f"{section}.{key}"
+        raise InputError(
+            f"{name} is no key of a scenario: did you mean {_nearest(name)}, or another key of "
+            f"[{section}] ({_listed(KEYS[section])})?"
+        )
+    if isinstance(value, str) and holds_file(SECTIONS[section], key, value):
+        value = str((folder / Path(value).expanduser()).resolve())
+    values[section][key] = value
+
+
+def _read_toml(path: Path) -> dict[str, Any]:
+    """Read a TOML file, or say in one sentence why not."""
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(
+            f"cannot read the scenario {path}: {error.strerror or error}; check the path"
+        ) from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"the scenario {path} is not valid TOML: {error}; correct it") from error
+
+
+def _parse_override(text: str) -> tuple[str, str, Any]:
+    """Split ``section.key=value``; a value that is no TOML value is a plain text."""
+    name, equals, value = text.partition("=")
+    section, dot, key = name.strip().partition(".")
+    if not (equals and dot):
+        raise InputError(
+            f"--set {text} is not of the form section.key=value: write for example "
+            f"--set {_nearest(name.strip())}=..."
+        )
+    try:
+        return section, key, tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        return section, key, value.strip()
+
+
+def _check_section(section: str, keys: object) -> None:
+    """Refuse an unknown section, and a value where a section is due."""
+    if section not in SECTIONS:
+        raise InputError(
+            f"{section} is no section of a scenario: did you mean {_nearest(section)}, or another "
+            f"key of {_listed(f'[{name}]' for name in SECTIONS)}?"
+        )
+    if not isinstance(keys, dict):
+        raise InputError(
+            f"{section} is {keys!r} but must be a section [{section}] with keys of "
+            f"{_listed(KEYS[section])}"
+        )
+
+
+def _nearest(name: str) -> str:
+    """Find the ``section.key`` that a text resembles most; the right key in any section wins."""
+    words = [f"{section}.{key}" for section, keys in KEYS.items() for key in keys]
+    key = name.rpartition(".")[2]
+
+    def likeness(word: str) -> tuple[bool, float]:
+        same_key = word.rpartition(".")[2] == key
+        return same_key, difflib.SequenceMatcher(None, name, word).ratio()
+
+    return max(words, key=likeness)
+
+
+def _listed(words: Iterable[str]) -> str:
+    return ", ".join(words)
+
+
+def _toml_value(value: bool | float | str) -> str:
+    """Write a value so that reading it gives the same one, bit for bit."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)

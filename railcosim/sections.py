@@ -1,0 +1,199 @@
+"""The sections of a scenario file: every key with its unit, default and limits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from .errors import InputError
+from .fields import Choice, CsvFile, Number, check_fields, is_csv
+
+GRAVITY = 9.81
+"""Gravitational acceleration that turns an axle load into a force [m/s2]."""
+
+DEFAULT_SPEED_KMH = 40.0
+"""Speed of the demonstration example [km/h]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Track:
+    """Keys of ``[track]``: Table 1 of Nielsen & Oscarsson (2004), and the size of the modal model.
+
+    Attributes
+    ----------
+    bays, elements_per_bay : int
+        Sleeper bays between the clamped ends, beam elements in each.
+    bending_stiffness, shear_stiffness : float
+        Rail EI [N m2] and kGA [N].
+    mass_per_length, rotary_inertia_per_length : float
+        Rail m [kg/m] and m r2 [kg m].
+    pad_stiffness, pad_damping : float
+        Rail pad [N/m], [N s/m].
+    sleeper_mass, sleeper_spacing : float
+        Half sleeper [kg] and spacing [m].
+    ballast_stiffness, ballast_damping : float
+        Unloaded ballast and subgrade per rail seat [N/m], [N s/m].
+    ballast : str
+        ``state_dependent``: Eq. (27) and (30) on top of the linear ballast; ``linear``: without.
+    ballast_alpha, ballast_beta, ballast_delta : float
+        Coefficients of Eq. (27) [N/m2], [N/m3], [N/m4].
+    mode_pairs : int
+        Retained pairs of complex modes.
+    residual_flexibility : bool
+        Whether the static part of the other modes is kept, Eq. (13).
+    supports_per_wheel : int
+        Number of nearest supports with state-dependent forces.
+    """
+
+    bays: Annotated[int, Number(unit="bays", at_least=2, at_most=10_000)] = 50
+    elements_per_bay: Annotated[int, Number(unit="elements", at_least=1, at_most=100)] = 8
+    bending_stiffness: Annotated[float, Number(unit="N m2", above=0.0)] = 6.4e6
+    shear_stiffness: Annotated[float, Number(unit="N", above=0.0)] = 250e6
+    mass_per_length: Annotated[float, Number(unit="kg/m", above=0.0)] = 60.0
+    rotary_inertia_per_length: Annotated[float, Number(unit="kg m", at_least=0.0)] = 0.24
+    pad_stiffness: Annotated[float, Number(unit="N/m", above=0.0)] = 80e6
+    pad_damping: Annotated[float, Number(unit="N s/m", at_least=0.0)] = 15e3
+    sleeper_mass: Annotated[float, Number(unit="kg", above=0.0)] = 125.0
+    sleeper_spacing: Annotated[float, Number(unit="m", above=0.0)] = 0.65
+    ballast_stiffness: Annotated[float, Number(unit="N/m", above=0.0)] = 30e6
+    ballast_damping: Annotated[float, Number(unit="N s/m", at_least=0.0)] = 31e3
+    ballast: Annotated[str, Choice(("state_dependent", "linear"))] = "state_dependent"
+    ballast_alpha: Annotated[float, Number(unit="N/m2")] = 0.37e12
+    ballast_beta: Annotated[float, Number(unit="N/m3")] = -2.47e15
+    ballast_delta: Annotated[float, Number(unit="N/m4")] = 5.75e18
+    mode_pairs: Annotated[int, Number(unit="pairs", at_least=1)] = 150
+    residual_flexibility: bool = True
+    supports_per_wheel: Annotated[int, Number(unit="supports", at_least=1)] = 6
+
+    def __post_init__(self) -> None:
+        check_fields(self, "track")
+        if self.mode_pairs > self.degrees_of_freedom:
+            raise InputError(
+                f"track.mode_pairs is {self.mode_pairs} but a track of {self.bays} bays with "
+                f"{self.elements_per_bay} elements each has only {self.degrees_of_freedom} mode "
+                "pairs: ask for fewer or refine the track"
+            )
+
+    @property
+    def length(self) -> float:
+        """Length between the clamped ends [m]."""
+        return self.bays * self.sleeper_spacing
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Two per inner rail node and one per sleeper."""
+        return 2 * (self.bays * self.elements_per_bay - 1) + self.bays - 1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Vehicle:
+    """Keys of ``[vehicle]``: moving masses, each half a wheelset under half an axle load.
+
+    Attributes
+    ----------
+    speed_kmh : float, optional
+        Constant speed [km/h]; 40 where neither a speed nor a table is given.
+    speed_table : str
+        CSV file with the columns time [s] and speed [m/s], instead of ``speed_kmh``.
+    wheels : int
+        Number of wheels, ``axle_base`` apart.
+    wheel_mass : float
+        Half of a wheelset's mass [kg].
+    axle_load_t : float
+        Axle load [t]; half of its weight is the whole static force of a wheel on the rail.
+    axle_base : float
+        Distance of neighbouring wheels [m].
+    wheel_radius : float
+        Wheel radius [m].
+    hertz_coefficient : float
+        Contact force per compression to the power 3/2 [N/m1.5].
+    rail_irregularity : str
+        CSV file with the columns position [m] and height [m], empty for a smooth rail.
+    """
+
+    speed_kmh: Annotated[float | None, Number(unit="km/h", above=0.0, at_most=1000.0)] = None
+    speed_table: Annotated[str, CsvFile()] = ""
+    wheels: Annotated[int, Number(unit="wheels", at_least=1, at_most=100)] = 2
+    wheel_mass: Annotated[float, Number(unit="kg", above=0.0)] = 592.5
+    axle_load_t: Annotated[float, Number(unit="t", above=0.0, at_most=100.0)] = 24.0
+    axle_base: Annotated[float, Number(unit="m", above=0.0)] = 1.8
+    wheel_radius: Annotated[float, Number(unit="m", above=0.0)] = 0.45
+    hertz_coefficient: Annotated[float, Number(unit="N/m1.5", above=0.0)] = 9.17e10
+    rail_irregularity: Annotated[str, CsvFile()] = ""
+
+    def __post_init__(self) -> None:
+        check_fields(self, "vehicle")
+        if self.speed_table and self.speed_kmh is not None:
+            raise InputError(
+                f"vehicle.speed_kmh = {self.speed_kmh:g} and vehicle.speed_table = "
+                f"{self.speed_table!r} are both given: leave one of them out"
+            )
+
+    @property
+    def static_wheel_load(self) -> float:
+        """Static wheel-rail force of one wheel [N], compression positive."""
+        return self.axle_load_t * 1000.0 * GRAVITY / 2.0
+
+    @property
+    def constant_speed(self) -> float:
+        """Speed where no table is given [m/s]."""
+        kmh = DEFAULT_SPEED_KMH if self.speed_kmh is None else self.speed_kmh
+        return kmh / 3.6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Flat:
+    """Keys of ``[flat]``: the wheel flat and the place where it meets the rail.
+
+    Attributes
+    ----------
+    shape : str
+        ``haversine``, ``parabola``, ``cusp``, ``chord``, ``none`` or a CSV file.
+    length, depth : float
+        Independent of each other [m]; a chord's depth follows from its length, and a CSV file
+        brings both.
+    wheel : int
+        Wheel that has the flat, 1 leads.
+    position : float, optional
+        Rail position where the flat's centre meets the rail [m]; 25 mm behind the middle of bay
+        ``bays // 2 + 1`` where none is given.
+    periodic : bool
+        Whether the flat strikes once per turn of the wheel, or once.
+    rolled : bool
+        Whether the round rail is rolled over the profile, or the profile is used as it is.
+    """
+
+    shape: Annotated[
+        str, Choice(("haversine", "parabola", "cusp", "chord", "none"), or_csv=True)
+    ] = "haversine"
+    length: Annotated[float, Number(unit="m", above=0.0)] = 0.1
+    depth: Annotated[float, Number(unit="m", at_least=0.0)] = 0.9e-3
+    wheel: Annotated[int, Number(at_least=1)] = 1
+    position: Annotated[float | None, Number(unit="m")] = None
+    periodic: bool = False
+    rolled: bool = False
+
+    def __post_init__(self) -> None:
+        check_fields(self, "flat")
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether the shape is a CSV file."""
+        return is_csv(self.shape)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Run:
+    """Keys of ``[run]``: how far the flat's wheel rolls.
+
+    Attributes
+    ----------
+    approach, departure : float
+        Distance rolled before and after the flat's centre meets the rail [m].
+    """
+
+    approach: Annotated[float, Number(unit="m", above=0.0)] = 3.9
+    departure: Annotated[float, Number(unit="m", above=0.0)] = 2.6
+
+    def __post_init__(self) -> None:
+        check_fields(self, "run")

@@ -1,0 +1,155 @@
+"""The time series of a result: where each comes from and what it means."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+Dimension: TypeAlias = Literal["wheel", "sleeper", "gauge"]
+
+COMPRESSION = "positive in compression"
+DOWN = "positive downwards"
+FORWARDS = "positive in the direction of travel"
+SAGGING = "positive sagging: tension in the rail foot"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Signal:
+    """One output of an FMU over all wheels, sleepers or gauges.
+
+    Attributes
+    ----------
+    name : str
+        Name in the result.
+    source : str
+        ``component.variable`` in the co-simulation, with ``[k]`` where the index belongs.
+    dim : {"wheel", "sleeper", "gauge"}
+        What k counts.
+    units, long_name, sign : str
+        Attributes in the result; units as the CF conventions write them.
+    """
+
+    name: str
+    source: str
+    dim: Dimension
+    units: str
+    long_name: str
+    sign: str
+
+    def path(self, k: int) -> str:
+        """Name the output of the k-th wheel, sleeper or gauge, counted from 1."""
+        return self.source.replace("[k]", f"[{k}]")
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """Attributes of the series in the result."""
+        return {"units": self.units, "long_name": self.long_name, "sign": self.sign}
+
+
+SIGNALS = (
+    Signal(
+        name="contact_force",
+        source="vehicle.wheel[k].contact_force",
+        dim="wheel",
+        units="N",
+        long_name="wheel-rail contact force",
+        sign=COMPRESSION,
+    ),
+    Signal(
+        name="gap",
+        source="vehicle.wheel[k].gap",
+        dim="wheel",
+        units="m",
+        long_name="gap between wheel and rail, minus the compression",
+        sign="positive apart",
+    ),
+    Signal(
+        name="in_contact",
+        source="vehicle.wheel[k].in_contact",
+        dim="wheel",
+        units="1",
+        long_name="whether the wheel touches the rail",
+        sign="true in contact",
+    ),
+    Signal(
+        name="wheel_position",
+        source="vehicle.wheel[k].position",
+        dim="wheel",
+        units="m",
+        long_name="position of the wheel along the rail",
+        sign=FORWARDS,
+    ),
+    Signal(
+        name="wheel_displacement",
+        source="vehicle.wheel[k].displacement",
+        dim="wheel",
+        units="m",
+        long_name="displacement of the wheel",
+        sign=DOWN,
+    ),
+    Signal(
+        name="wheel_velocity",
+        source="vehicle.wheel[k].velocity",
+        dim="wheel",
+        units="m s-1",
+        long_name="velocity of the wheel",
+        sign=DOWN,
+    ),
+    Signal(
+        name="rail_displacement",
+        source="track.wheel[k].rail_displacement",
+        dim="wheel",
+        units="m",
+        long_name="displacement of the rail under the wheel",
+        sign=DOWN,
+    ),
+    Signal(
+        name="rail_velocity",
+        source="track.wheel[k].rail_velocity",
+        dim="wheel",
+        units="m s-1",
+        long_name="velocity of the rail under the wheel, following the wheel",
+        sign=DOWN,
+    ),
+    Signal(
+        name="bending_moment_under_wheel",
+        source="track.wheel[k].bending_moment",
+        dim="wheel",
+        units="N m",
+        long_name="bending moment of the rail under the wheel",
+        sign=SAGGING,
+    ),
+    Signal(
+        name="sleeper_displacement",
+        source="track.sleeper[k].displacement",
+        dim="sleeper",
+        units="m",
+        long_name="displacement of the sleeper",
+        sign=DOWN,
+    ),
+    Signal(
+        name="pad_force",
+        source="track.pad[k].force",
+        dim="sleeper",
+        units="N",
+        long_name="force in the rail pad",
+        sign=COMPRESSION,
+    ),
+    Signal(
+        name="ballast_force",
+        source="track.ballast[k].force",
+        dim="sleeper",
+        units="N",
+        long_name="force in ballast and subgrade",
+        sign=COMPRESSION,
+    ),
+    Signal(
+        name="bending_moment",
+        source="track.gauge[k].bending_moment",
+        dim="gauge",
+        units="N m",
+        long_name="bending moment of the rail at the gauge",
+        sign=SAGGING,
+    ),
+)
+"""Every time series that a result holds."""

@@ -1,0 +1,65 @@
+"""The time series of a passage as plain columns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import numpy as np
+    import xarray as xr
+    from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Column:
+    """One time series.
+
+    Attributes
+    ----------
+    label : str
+        ``variable [unit]``, or ``variable[k] [unit]`` for the k-th wheel, sleeper or gauge.
+    values : ndarray, shape (times,)
+        The series.
+    attributes : dict of str to str
+        Units, long name and sign.
+    """
+
+    label: str
+    values: NDArray[np.generic]
+    attributes: dict[str, str]
+
+
+def columns(passage: xr.Dataset) -> Iterator[Column]:
+    """Yield every series over time, the time itself first.
+
+    Parameters
+    ----------
+    passage : xarray.Dataset
+        Result of a passage.
+
+    Yields
+    ------
+    Column
+        In the order of the dataset's variables.
+    """
+    names = ["time", "distance", *passage.data_vars]
+    for name in names:
+        variable = passage[name]
+        if variable.dims == ("time",):
+            yield _column(variable, str(name))
+        elif variable.dims[:1] == ("time",):
+            dim = variable.dims[1]
+            for k in passage[dim].to_numpy():
+                yield _column(variable.sel({dim: k}), f"{name}[{k}]")
+
+
+def _column(variable: xr.DataArray, name: str) -> Column:
+    attributes: dict[str, Any] = variable.attrs
+    return Column(
+        label=f"{name} [{attributes['units']}]",
+        values=variable.to_numpy(),
+        attributes={key: str(value) for key, value in attributes.items()},
+    )

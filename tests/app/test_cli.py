@@ -1,0 +1,175 @@
+import json
+
+import pytest
+import xarray as xr
+from typer.testing import CliRunner
+
+import railcosim
+from railcosim import cli
+from railcosim.errors import InputError, RunError
+
+DISTANCE = [-3.9, -0.2, 0.0, 0.9, 2.6]
+
+
+@pytest.fixture
+def call():
+    """Run the command line without anything behind it."""
+
+    def call(*arguments):
+        return CliRunner().invoke(cli.app, [str(argument) for argument in arguments])
+
+    return call
+
+
+@pytest.fixture
+def runs(monkeypatch, make_passage):
+    """Let `run` end as it should end, and tell which scenarios were run."""
+    seen = []
+
+    def runs(*, ends=None, complete=True):
+        def run_passage(scenario, **_):
+            seen.append(scenario)
+            if ends is not None:
+                raise ends
+            distance = DISTANCE if complete else DISTANCE[:2]
+            return make_passage(distance, scenario, complete=complete)
+
+        monkeypatch.setattr(cli, "run_passage", run_passage)
+        return seen
+
+    return runs
+
+
+def one_sentence(result):
+    """Give the only line on stderr, after its prefix; there must be no traceback."""
+    (line,) = result.stderr.splitlines()
+    assert line.startswith("railcosim: ")
+    assert "Traceback" not in result.output
+    return line
+
+
+def test_version(call):
+    result = call("--version")
+    assert (result.exit_code, result.stdout) == (0, f"railcosim {railcosim.__version__}\n")
+
+
+def test_help_names_the_commands(call):
+    assert call("--help").exit_code == 0
+    assert {"run", "build"} <= set(call("--help").stdout.split())
+
+
+def test_a_run_prints_a_table(call, runs):
+    seen = runs()
+    result = call("run", "--set", "vehicle.speed_kmh=35", "--fmus", "python")
+    assert result.exit_code == 0
+    assert result.stderr == ""
+    assert "largest contact force" in result.stdout
+    assert "35 km/h" in result.stdout
+    assert seen[0].vehicle.speed_kmh == 35.0
+
+
+def test_json_is_one_object_and_nothing_else(call, runs):
+    runs()
+    result = call("run", "--json")
+    assert result.exit_code == 0
+    assert result.stderr == ""
+    assert json.loads(result.stdout)["steps"]["accepted"] == len(DISTANCE) - 1
+
+
+def test_quiet_says_nothing(call, runs):
+    runs()
+    assert call("run", "--quiet").output == ""
+    assert json.loads(call("run", "--quiet", "--json").output)["wall_time"] == 1.5
+
+
+def test_a_scenario_file_is_read_and_the_files_are_written(call, runs, tmp_path):
+    seen = runs()
+    scenario = tmp_path / "case.toml"
+    scenario.write_text("[flat]\nshape = 'none'\n")
+    output, plot = tmp_path / "passage.nc", tmp_path / "passage.png"
+    result = call("run", scenario, "--output", output, "--plot", plot)
+    assert result.exit_code == 0
+    assert seen[0].flat.shape == "none"
+    with xr.open_dataset(output, engine="h5netcdf") as stored:
+        assert stored.sizes["time"] == len(DISTANCE)
+    assert plot.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "part"),
+    [
+        (["--set", "vehicle.sped_kmh=40"], "vehicle.speed_kmh"),
+        (["--set", "flat.depth=-1e-3"], "at least 0 m"),
+        (["--set", "flat.length=100"], "the length of the track"),
+        (["--set", "run.approach=20"], "the track begins at 0 m"),
+        (["--set", "run.departure=20"], "the track ends at 32.5 m"),
+        (["--set", "vehicle.speed_kmh=0"], "above 0 km/h"),
+        (["missing.toml"], "No such file"),
+        (["--output", "passage.txt"], "--output passage.txt"),
+        (["--output", "missing/passage.nc"], "does not exist"),
+        (["--plot", "passage.gif"], "--plot passage.gif"),
+    ],
+)
+def test_wrong_input_ends_with_2_before_the_run(call, runs, tmp_path, monkeypatch, arguments, part):
+    monkeypatch.chdir(tmp_path)
+    seen = runs()
+    result = call("run", *arguments)
+    assert result.exit_code == 2
+    assert part in one_sentence(result)
+    assert (result.stdout, seen, [*tmp_path.iterdir()]) == ("", [], [])
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["run", "--unknown"], ["run", "--fmus", "fortran"], ["run", "a.toml", "b.toml"], ["walk"]],
+)
+def test_wrong_usage_ends_with_2(call, runs, arguments):
+    seen = runs()
+    result = call(*arguments)
+    assert (result.exit_code, result.stdout, seen) == (2, "", [])
+    assert "Error" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("ends", "code", "part"),
+    [
+        (InputError("table v.csv: has no rows"), 2, "v.csv"),
+        (RunError("track: the step failed at t = 0.1 s"), 1, "at t = 0.1 s"),
+        (KeyboardInterrupt(), 1, "interrupted"),
+    ],
+)
+def test_a_failed_run_says_why_and_writes_nothing(call, runs, tmp_path, ends, code, part):
+    runs(ends=ends)
+    result = call("run", "--output", tmp_path / "passage.nc")
+    assert result.exit_code == code
+    assert part in one_sentence(result)
+    assert (result.stdout, [*tmp_path.iterdir()]) == ("", [])
+
+
+def test_an_interrupted_run_ends_with_1_and_a_valid_result(call, runs, tmp_path):
+    runs(complete=False)
+    path = tmp_path / "passage.nc"
+    result = call("run", "--json", "--output", path, "--plot", tmp_path / "passage.png")
+    assert result.exit_code == 1
+    assert "it was interrupted" in one_sentence(result)
+    assert json.loads(result.stdout)["peak_contact_force"] is None
+    with xr.open_dataset(path, engine="h5netcdf") as stored:
+        assert stored.attrs["complete"] == 0
+
+
+def test_build_writes_both_fmus_and_leaves_them_alone(call, tmp_path):
+    result = call("build", "--output", tmp_path)
+    assert result.exit_code == 0
+    assert result.stdout.split() == [str(tmp_path / "Track.fmu"), str(tmp_path / "Vehicle.fmu")]
+    assert "building Track.fmu" in result.stderr
+    again = call("build", "--output", tmp_path)
+    assert (again.exit_code, again.stdout, again.stderr) == (0, result.stdout, "")
+
+
+def test_build_says_where_it_cannot_write(call, tmp_path):
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    result = call("build", "--output", blocked)
+    assert result.exit_code == 1
+    assert str(blocked) in result.stderr.splitlines()[-1]
+    assert "Traceback" not in result.output

@@ -1,0 +1,131 @@
+"""The passage by an independent formulation: the whole finite element track, no modes, no FMUs.
+
+Newmark's average acceleration rule with a fixed step; contact and ballast forces at the end of each
+step are found together by Newton's iteration. Only the element matrices are shared with the package
+(`tests/track` checks those by themselves).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import cho_solve_banded, cholesky_banded
+from track_fmu.assembly import assemble, to_banded
+from track_fmu.contact_point import locate
+from track_fmu.parameters import TrackParameters
+
+HERTZ = 9.17e10
+MASS = 592.5
+LOAD = 117_720.0
+ALPHA, BETA, DELTA, TAU = 0.37e12, -2.47e15, 5.75e18, 31e3 / 30e6
+
+
+def haversine(distance, length=0.1, depth=0.9e-3):
+    a = abs(distance) / (0.5 * length)
+    return 0.5 * depth * (1.0 + np.cos(np.pi * a)) if a < 1.0 else 0.0
+
+
+@dataclass
+class Passage:
+    position: np.ndarray
+    force: np.ndarray
+    sleeper: np.ndarray
+
+
+class FullModel:
+    def __init__(self, *, state_dependent=True, bays=50):
+        self.parameters = TrackParameters(bays=bays)
+        self.matrices = assemble(self.parameters)
+        self.scale = 1.0 if state_dependent else 0.0
+        self.sleeper = self.matrices.numbering.sleeper
+        self.size = self.matrices.mass.shape[0]
+
+    def contact_columns(self, positions):
+        columns = np.zeros((self.size + 1, len(positions)))
+        for i, position in enumerate(positions):
+            point = locate(self.parameters, float(position))
+            dofs = self.matrices.numbering.rail[point.element : point.element + 2].ravel()
+            columns[dofs, i] += point.shape
+        return columns[:-1]
+
+    def ballast(self, x, v):
+        """Increment and its derivatives by displacement and velocity."""
+        x = self.scale * np.maximum(x, 0.0)
+        secant = x * (ALPHA + x * (BETA + x * DELTA))
+        slope = ALPHA + x * (2 * BETA + x * 3 * DELTA)
+        return secant * (x + TAU * v), secant + slope * (x + TAU * v), TAU * secant
+
+    def equilibrium(self, positions):
+        columns = self.contact_columns(positions)
+        factor = cholesky_banded(to_banded(self.matrices.stiffness), lower=True)
+        units = np.zeros((self.size, len(self.sleeper)))
+        units[self.sleeper, np.arange(len(self.sleeper))] = 1.0
+        flexibility = cho_solve_banded((factor, True), units)
+        linear = cho_solve_banded((factor, True), columns @ np.full(len(positions), LOAD))
+        force = np.zeros(len(self.sleeper))
+        for _ in range(60):
+            x = linear - flexibility @ force
+            value, slope, _ = self.ballast(x[self.sleeper], 0.0)
+            jacobian = np.eye(len(force)) + slope[:, None] * flexibility[self.sleeper]
+            force = force + np.linalg.solve(jacobian, value - force)
+        return linear - flexibility @ force
+
+    def run(self, *, speed, drop, start=12.7, stop=19.2, axle_base=1.8, step=2e-5):
+        mass, damping, stiffness = (
+            self.matrices.mass,
+            self.matrices.damping,
+            self.matrices.stiffness,
+        )
+        effective = stiffness + (2.0 / step) * damping + (4.0 / step**2) * mass
+        factor = cholesky_banded(to_banded(effective), lower=True)
+        supports = np.arange(len(self.sleeper))
+        units = np.zeros((self.size, len(supports)))
+        units[self.sleeper, supports] = 1.0
+        response = cho_solve_banded((factor, True), units)
+        offsets = np.array([0.0, -axle_base])
+        x, v = self.equilibrium(start + offsets), np.zeros(self.size)
+        a = np.zeros(self.size)
+        z = self.contact_columns(start + offsets).T @ x + (LOAD / HERTZ) ** (2 / 3)
+        zv, za = np.zeros(2), np.zeros(2)
+        force, increment = np.full(2, LOAD), self.ballast(x[self.sleeper], 0.0)[0]
+        wheel_response = step**2 / (4.0 * MASS)
+        history = []
+        for k in range(1, round((stop - start) / speed / step) + 1):
+            at = start + offsets + speed * step * k
+            columns = self.contact_columns(at)
+            columns_response = cho_solve_banded((factor, True), columns)
+            predicted = 4.0 / step**2 * x + 4.0 / step * v + a
+            right = mass @ predicted + damping @ (2.0 / step * x + v)
+            free = cho_solve_banded((factor, True), right)
+            free_wheel = z + step * zv + step**2 / 4.0 * za + wheel_response * LOAD
+            surface = np.array([drop(at[0]), 0.0])
+            for _ in range(30):
+                new = free + columns_response @ force - response @ increment
+                new_v = 2.0 / step * (new - x) - v
+                compression = free_wheel - wheel_response * force - columns.T @ new - surface
+                pressed = np.maximum(compression, 0.0)
+                ballast, by_x, by_v = self.ballast(new[self.sleeper], new_v[self.sleeper])
+                by_x = by_x + 2.0 / step * by_v
+                residual = np.concatenate(
+                    [HERTZ * pressed**1.5 - force, self.scale * (ballast - increment)]
+                )
+                if np.abs(residual).max() < 1e-6:
+                    break
+                contact = 1.5 * HERTZ * np.sqrt(pressed)
+                jacobian = np.eye(2 + len(supports))
+                jacobian[:2, :2] += contact[:, None] * (
+                    columns.T @ columns_response + wheel_response * np.eye(2)
+                )
+                jacobian[:2, 2:] -= contact[:, None] * (columns.T @ response)
+                jacobian[2:, :2] -= by_x[:, None] * columns_response[self.sleeper]
+                jacobian[2:, 2:] += by_x[:, None] * response[self.sleeper]
+                change = np.linalg.solve(jacobian, residual)
+                force, increment = force + change[:2], increment + change[2:]
+            else:
+                raise RuntimeError(f"no convergence at step {k}")
+            x, v, a = new, new_v, 4.0 / step**2 * (new - x) - 4.0 / step * v - a
+            za_new = (LOAD - force) / MASS
+            z, zv = free_wheel - wheel_response * force, zv + 0.5 * step * (za + za_new)
+            za = za_new
+            history.append((at[0], force[0], x[self.sleeper].max()))
+        columns = np.array(history).T
+        return Passage(*columns)
