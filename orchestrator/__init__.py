@@ -1,0 +1,78 @@
+"""A co-simulation master for any FMUs, with rollback, event location and error control."""
+
+from .coupling import Algorithm, Attempt, Coupling
+from .decision import Accept, Candidate, Cause, Decision, Failure, Landed, Refine, Reject
+from .errors import (
+    FmuError,
+    InitialisationError,
+    InputError,
+    OrchestratorError,
+    ParticipantError,
+    RollbackError,
+    RunError,
+    SettingsError,
+    StepTooSmallError,
+    WiringError,
+    ZenoError,
+)
+from .explicit import Explicit
+from .fmu import FmuParticipant
+from .master import Master
+from .newton import Newton
+from .observers import Observer
+from .outcome import Outcome, Statistics, StopReason, Switch
+from .participant import OK, InputShape, Participant, Status, StatusKind, Variable, Vector
+from .recorder import Recorder
+from .settings import MasterSettings
+from .step_control import ErrorControl, FixedStep, StepController
+from .step_log import StepLog
+from .system import Connection, System
+
+__all__ = [
+    "OK",
+    "Accept",
+    "Algorithm",
+    "Attempt",
+    "Candidate",
+    "Cause",
+    "Connection",
+    "Coupling",
+    "Decision",
+    "ErrorControl",
+    "Explicit",
+    "Failure",
+    "FixedStep",
+    "FmuError",
+    "FmuParticipant",
+    "InitialisationError",
+    "InputError",
+    "InputShape",
+    "Landed",
+    "Master",
+    "MasterSettings",
+    "Newton",
+    "Observer",
+    "OrchestratorError",
+    "Outcome",
+    "Participant",
+    "ParticipantError",
+    "Recorder",
+    "Refine",
+    "Reject",
+    "RollbackError",
+    "RunError",
+    "SettingsError",
+    "Statistics",
+    "Status",
+    "StatusKind",
+    "StepController",
+    "StepLog",
+    "StepTooSmallError",
+    "StopReason",
+    "Switch",
+    "System",
+    "Variable",
+    "Vector",
+    "WiringError",
+    "ZenoError",
+]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import fmpy
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 import orchestrator
 from build_fmus import Structure, default_directory, ensure_fmus
@@ -80,7 +81,8 @@ def run_passage(
     check_profiles(scenario)
     paths = build_for(scenario, directory=directory, notify=notify)
     try:
-        recorder, outcome = _simulate(scenario, law, paths, report)
+        with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
+            recorder, outcome = _simulate(scenario, law, paths, report)
     except orchestrator.InputError as error:
         raise InputError(str(error)) from error
     except orchestrator.RunError as error:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import cho_solve_banded, cholesky_banded
+
 from track_fmu.assembly import assemble, to_banded
 from track_fmu.contact_point import locate
 from track_fmu.parameters import TrackParameters

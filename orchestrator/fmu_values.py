@@ -1,0 +1,140 @@
+"""Reading and writing groups of FMU variables: one call per type and nothing allocated."""
+
+from collections.abc import Callable, Mapping, Sequence
+from ctypes import c_char_p, c_double, c_int, c_uint, c_void_p
+from typing import Any
+
+import numpy as np
+
+from .fmu_description import FmuDescription, StartValue
+from .participant import Vector
+
+FmiFunctions = Mapping[str, Callable[..., Any]]
+"""Raw functions of the shared library by FMI name."""
+
+storage: Mapping[str, tuple[str, Any]] = {
+    "Real": ("Real", c_double),
+    "Integer": ("Integer", c_int),
+    "Enumeration": ("Integer", c_int),
+    "Boolean": ("Boolean", c_int),
+    "String": ("String", c_char_p),
+}
+"""FMI function suffix and C type of each variable type."""
+
+
+class Writer:
+    """A fixed group of Real variables that are set together.
+
+    Parameters
+    ----------
+    functions : mapping of str to callable
+        Raw functions of the FMU.
+    component : ctypes.c_void_p
+        The instance.
+    description : FmuDescription
+        The FMU.
+    names : sequence of str
+        Variables in the order of the values.
+    """
+
+    def __init__(
+        self,
+        functions: FmiFunctions,
+        component: c_void_p,
+        description: FmuDescription,
+        names: Sequence[str],
+    ) -> None:
+        self._set = functions["fmi2SetReal"]
+        self._component = component
+        self._references = references(description, names)
+        self._count = len(names)
+        self._buffer = (c_double * max(len(names), 1))()
+        self._view: Vector = np.frombuffer(memoryview(self._buffer), np.float64, len(names))
+
+    def write(self, values: Vector) -> int:
+        """Set `values`, shape (n,), and return the FMI status."""
+        if self._count == 0:
+            return 0
+        self._view[:] = values
+        status: int = self._set(self._component, self._references, self._count, self._buffer)
+        return status
+
+    def last(self) -> list[float]:
+        """Return the values set last."""
+        values: list[float] = self._view.tolist()
+        return values
+
+
+class Reader:
+    """A fixed group of Real, Integer and Boolean variables that are read together.
+
+    Parameters
+    ----------
+    functions, component, description, names
+        As for `Writer`.
+    """
+
+    def __init__(
+        self,
+        functions: FmiFunctions,
+        component: c_void_p,
+        description: FmuDescription,
+        names: Sequence[str],
+    ) -> None:
+        self._component = component
+        kinds = [storage[description.variables[name].type] for name in names]
+        self._groups: list[tuple[Callable[..., int], Any, int, Any, Any, Any]] = []
+        for kind in dict.fromkeys(kinds):
+            suffix, c_type = kind
+            places = [place for place, other in enumerate(kinds) if other == kind]
+            buffer = (c_type * len(places))()
+            self._groups.append(
+                (
+                    functions[f"fmi2Get{suffix}"],
+                    references(description, [names[place] for place in places]),
+                    len(places),
+                    buffer,
+                    np.frombuffer(buffer, dtype=np.dtype(c_type)),
+                    slice(None) if len(places) == len(names) else np.array(places),
+                )
+            )
+
+    def read(self, out: Vector) -> int:
+        """Write the values to `out`, shape (n,), Booleans as 0 and 1; return the FMI status."""
+        for get, refs, count, buffer, view, places in self._groups:
+            status = get(self._component, refs, count, buffer)
+            if status > 1:
+                return status
+            out[places] = view
+        return 0
+
+
+def write_start_values(
+    functions: FmiFunctions,
+    component: c_void_p,
+    description: FmuDescription,
+    values: Mapping[str, StartValue],
+) -> tuple[str, int]:
+    """Set start values of any type one by one.
+
+    Returns
+    -------
+    name : str
+        The first variable that was refused, or ``""``.
+    status : int
+        The FMI status of that.
+    """
+    for name, value in values.items():
+        suffix, c_type = storage[description.variables[name].type]
+        raw = value.encode() if isinstance(value, str) else value
+        status = functions[f"fmi2Set{suffix}"](
+            component, references(description, [name]), 1, (c_type * 1)(raw)
+        )
+        if status > 1:
+            return name, status
+    return "", 0
+
+
+def references(description: FmuDescription, names: Sequence[str]) -> Any:  # noqa: ANN401
+    """Return the value references of `names` as a C array."""
+    return (c_uint * len(names))(*(description.references[name] for name in names))

@@ -1,0 +1,147 @@
+"""A participant in its place in the system: its slices of the exchanged values and its state."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .decision import Cause, Failure
+from .errors import ParticipantError
+from .participant import OK, Participant, Status, StatusKind, Vector
+
+causes = {StatusKind.DISCARD: Cause.DISCARD, StatusKind.ERROR: Cause.INVALID}
+
+
+class Stage:
+    """Steps one participant, from its saved state if it has been stepped since.
+
+    Parameters
+    ----------
+    participant : Participant
+        The partner.
+    inputs, outputs : numpy.ndarray, shape (n_inputs,) and (n_outputs,)
+        Views of the exchanged values.
+    observed : numpy.ndarray, shape (n_observed,)
+        View of the observed values.
+    input_names, output_names, observed_names : sequence of str
+        Names of their variables.
+    """
+
+    def __init__(
+        self,
+        participant: Participant,
+        *,
+        inputs: Vector,
+        outputs: Vector,
+        observed: Vector,
+        input_names: Sequence[str],
+        output_names: Sequence[str],
+        observed_names: Sequence[str],
+    ) -> None:
+        self.participant = participant
+        self.inputs = inputs
+        self.outputs = outputs
+        self.observed = observed
+        self.input_names = tuple(input_names)
+        self.output_names = tuple(output_names)
+        self.observed_names = tuple(observed_names)
+        self._zeros = np.zeros_like(outputs)
+        self._state: object = None
+        self._moved = False
+        self._set_inputs = participant.set_inputs
+        self._get_outputs = participant.get_outputs
+        self._step = participant.step
+        self._restore = participant.restore
+
+    def save(self) -> None:
+        """Save the present state and give up the one saved before."""
+        before = self._state
+        self._state = self.participant.save()
+        self._moved = False
+        if before is not None:
+            self.participant.release(before)
+
+    def release(self) -> None:
+        """Give up the saved state."""
+        state, self._state = self._state, None
+        if state is not None:
+            self.participant.release(state)
+
+    def go_back(self) -> None:
+        """Restore the saved state now."""
+        self._restore(self._state)
+        self._moved = False
+
+    def step(self, time: float, step_size: float) -> Failure | None:
+        """Set the inputs, step from the saved state and read the outputs.
+
+        Raises
+        ------
+        ParticipantError
+            When the participant died.
+        """
+        if self._moved and self._state is not None:
+            self._restore(self._state)
+        self._moved = True
+        status = self._set_inputs(self.inputs)
+        if status is OK:
+            status = self._step(time, step_size)
+            if status is OK:
+                status = self._get_outputs(self.outputs)
+                # Zero times infinity or NaN is NaN: one product finds any of them.
+                if status is OK and self.outputs.dot(self._zeros) == 0.0:
+                    return None
+        return self._failure(status, time, step_size)
+
+    def exchange(self) -> Failure | None:
+        """Set the inputs and read the outputs without a step, as the initialisation does."""
+        status = self._set_inputs(self.inputs)
+        if status is OK:
+            status = self._get_outputs(self.outputs)
+            if status is OK and self.outputs.dot(self._zeros) == 0.0:
+                return None
+        return self._failure(status, None, None)
+
+    def read_outputs(self) -> None:
+        """Read the outputs as they are."""
+        self._require(self._get_outputs(self.outputs))
+
+    def read_observed(self, time: float, step_size: float | None = None) -> Failure | None:
+        """Read the observed values at the end of a step from `time`, or at `time` itself [s]."""
+        status = self.participant.get_observed(self.observed)
+        if status is OK and np.isfinite(self.observed).all():
+            return None
+        return self._failure(status, time, step_size)
+
+    def error(
+        self, what: str, time: float | None = None, step_size: float | None = None
+    ) -> ParticipantError:
+        """Return the error that says what happened, when and with which inputs."""
+        return ParticipantError(
+            participant=self.participant.name,
+            failure=what,
+            time=time,
+            step_size=step_size,
+            inputs=dict(zip(self.input_names, self.inputs.tolist(), strict=True)),
+            messages=self.participant.messages,
+        )
+
+    def _require(self, status: Status) -> None:
+        if status is not OK:
+            raise self.error(status.message)
+
+    def _failure(self, status: Status, time: float | None, step_size: float | None) -> Failure:
+        if status is OK:
+            names = (*self.output_names, *self.observed_names)
+            values = np.concatenate([self.outputs, self.observed])
+            name = names[int(np.argmin(np.isfinite(values)))]
+            error = self.error(f"its value of {name} is not finite", time, step_size)
+            return Failure(Cause.INVALID, str(error))
+        error = self.error(status.message, time, step_size)
+        if status.kind is StatusKind.FATAL:
+            raise error
+        return Failure(
+            causes[status.kind],
+            str(error),
+            last_successful_time=status.last_successful_time,
+            participant_error=error if status.kind is StatusKind.ERROR else None,
+        )

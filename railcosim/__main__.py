@@ -1,0 +1,5 @@
+"""`python -m railcosim` is the command `railcosim`."""
+
+from .cli import main
+
+main()

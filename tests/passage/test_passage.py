@@ -1,0 +1,231 @@
+"""The paper's demonstration example, through both FMUs and the master."""
+
+import json
+import resource
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from orchestrator import Cause, Master, Recorder, Reject
+from railcosim.coupled_system import connect, indicators, master_settings
+from railcosim.motion import speed_law
+from railcosim.passage import build_for
+from railcosim.scenario_file import read_scenario
+
+from .full_model import FullModel, haversine
+
+SPEED = 40.0 / 3.6
+STATIC_LOAD = 117_720.0
+FLAT = 16.6
+CIRCUMFERENCE = 2.0 * np.pi * 0.45
+
+
+def single(position):
+    return haversine(position - FLAT)
+
+
+def periodic(position):
+    return haversine((position - FLAT + CIRCUMFERENCE / 2) % CIRCUMFERENCE - CIRCUMFERENCE / 2)
+
+
+# figures of the paper, and those of an independent full finite element solution
+
+
+def test_largest_sleeper_displacement_with_and_without_the_flat(passages):
+    """0.45 mm with and 0.39 mm without in the paper, section 4."""
+    assert 0.45e-3 <= passages.summary().max_sleeper_displacement <= 0.47e-3
+    smooth = passages.summary("flat.shape=none")
+    assert 0.39e-3 <= smooth.max_sleeper_displacement <= 0.40e-3
+
+
+@pytest.mark.parametrize(
+    ("overrides", "drop", "state_dependent"),
+    [
+        ((), single, True),
+        (("flat.periodic=true",), periodic, True),
+        (("track.ballast=linear",), single, False),
+    ],
+    ids=["state-dependent", "periodic flat", "linear"],
+)
+def test_contact_force_is_that_of_the_full_model(passages, overrides, drop, state_dependent):
+    """The whole track without modes, by Newmark's rule: 1 % of the load at all times.
+
+    Every step of 200 us is allowed to the master, of 25 us to the full model.
+    """
+    full = FullModel(state_dependent=state_dependent)
+    expected = full.run(speed=SPEED, drop=drop, stop=17.6, step=2.5e-5)
+    passage = passages.dataset(*overrides)
+    position = passage["wheel_position"].sel(wheel=1).to_numpy()
+    force = passage["contact_force"].sel(wheel=1).to_numpy()
+    under_way = expected.position > 13.0  # the full model starts its wheels from rest
+    ours = np.interp(expected.position[under_way], position, force)
+    difference = np.abs(ours - expected.force[under_way]).max()
+    assert difference < 0.01 * STATIC_LOAD
+    peak = passages.summary(*overrides).peak_contact_force
+    struck = (expected.position > FLAT - 0.1) & (expected.position < FLAT + 0.8)
+    assert peak == pytest.approx(expected.force[struck].max(), rel=3e-3)
+
+
+def test_a_periodic_flat_differs_by_less_than_a_percent_at_40_km_h(passages):
+    """The full model says -0.73 %; the vibration of the strike before has all but died out."""
+    ratio = (
+        passages.summary("flat.periodic=true").peak_contact_force
+        / passages.summary().peak_contact_force
+    )
+    assert ratio == pytest.approx(1.0 - 0.007, abs=0.001)
+
+
+def test_the_peak_force_is_largest_at_35_km_h_and_higher_than_on_a_linear_track(passages):
+    peaks = {
+        speed: passages.summary(*speed_key(speed)).peak_contact_force for speed in (30, 35, 40, 45)
+    }
+    assert max(peaks, key=peaks.get) == 35
+    linear = passages.summary("track.ballast=linear", *speed_key(35))
+    assert linear.peak_contact_force < 0.8 * peaks[35]
+    assert linear.max_sleeper_displacement > 2e-3
+
+
+def speed_key(speed):
+    return () if speed == 40 else (f"vehicle.speed_kmh={speed}",)
+
+
+@pytest.mark.slow
+def test_peak_forces_over_all_speeds(passages):
+    speeds = range(10, 101, 5)
+    for ballast in ("state_dependent", "linear"):
+        peaks = {
+            speed: passages.summary(
+                f"vehicle.speed_kmh={speed}", f"track.ballast={ballast}"
+            ).peak_contact_force
+            for speed in speeds
+        }
+        assert (max(peaks, key=peaks.get) == 35) == (ballast == "state_dependent")
+
+
+# numerics
+
+
+@pytest.mark.parametrize(
+    "override",
+    [
+        "master.tolerance=2.5e-3",
+        "master.step=1e-4",
+        "master.coupling_tolerance=5e-8",
+        "track.mode_pairs=300",
+        "track.supports_per_wheel=12",
+    ],
+)
+def test_finer_settings_change_the_peak_by_less_than_three_in_a_thousand(passages, override):
+    finer = passages.summary(override)
+    assert finer.peak_contact_force == pytest.approx(
+        passages.summary().peak_contact_force, rel=3e-3
+    )
+
+
+def test_impulse_of_the_contact_force_is_that_of_the_static_load(passages):
+    """m dv/dt = P - F over the whole run, for both wheels."""
+    passage = passages.dataset()
+    time = passage["time"].to_numpy()
+    for wheel in (1, 2):
+        force = passage["contact_force"].sel(wheel=wheel).to_numpy()
+        velocity = passage["wheel_velocity"].sel(wheel=wheel).to_numpy()
+        impulse = np.trapezoid(STATIC_LOAD - force, time)
+        change = 592.5 * (velocity[-1] - velocity[0])
+        # what the trapezoidal rule makes of steps up to 200 us
+        assert impulse == pytest.approx(change, abs=2e-5 * STATIC_LOAD * time[-1])
+    smooth = passages.dataset("flat.shape=none")
+    mean = np.trapezoid(smooth["contact_force"].sel(wheel=1), smooth["time"]) / smooth["time"][-1]
+    assert float(mean) == pytest.approx(STATIC_LOAD, rel=2e-3)
+
+
+def test_a_fresh_flat_loses_contact_and_strikes(passages):
+    """Drop, loss, impact: the switches of contact are landed on."""
+    passage = passages.dataset("flat.shape=chord")
+    summary = passages.summary("flat.shape=chord")
+    assert summary.min_contact_force == 0.0
+    assert summary.loss_of_contact_time > 0.01
+    assert summary.steps.rejected["event"] > 0
+    assert summary.peak_contact_force > 400e3
+    gap = passage["gap"].sel(wheel=1).to_numpy()
+    crossing = np.flatnonzero(np.diff(np.sign(gap)) != 0)
+    assert len(crossing) >= 4
+    # one of the two points beside a change of side lies on the switch
+    landed = np.minimum(np.abs(gap[crossing]), np.abs(gap[crossing + 1]))
+    assert landed.max() < 1e-9
+
+
+class Throwing:
+    """Throws away attempts at random and asks for the same step again."""
+
+    def __init__(self, inner, share, seed):
+        self._inner, self._share = inner, share
+        self._random = np.random.default_rng(seed)
+        self.thrown = 0
+
+    def __getattr__(self, name):
+        return getattr(self._inner, name)
+
+    def decide(self, candidate):
+        if self._random.random() < self._share:
+            self.thrown += 1
+            return Reject(Cause.ERROR, candidate.step_size)
+        return self._inner.decide(candidate)
+
+
+def recorded(overrides, share):
+    scenario = read_scenario(None, overrides)
+    law = speed_law(scenario.vehicle)
+    settings = master_settings(scenario)
+    stop = scenario.distance / SPEED
+    controller = Throwing(settings.make_controller(stop), share, seed=3)
+    recorder = Recorder(
+        [f"vehicle.wheel[{i}].contact_force" for i in (1, 2)]
+        + ["track.wheel[1].rail_displacement", "track.gauge[1].bending_moment"]
+    )
+    Master(
+        connect(scenario, build_for(scenario), law),
+        settings,
+        controller=controller,
+        events=indicators(2),
+        observers=[recorder],
+    ).run(0.0, stop)
+    return recorder, controller.thrown
+
+
+def test_attempts_thrown_away_at_random_leave_no_trace():
+    """A fresh flat, so that the run has switches; 0.3 m before it to 0.4 m after."""
+    overrides = ("run.approach=0.3", "run.departure=0.4", "flat.shape=chord")
+    undisturbed, none = recorded(overrides, 0.0)
+    disturbed, thrown = recorded(overrides, 0.3)
+    assert none == 0
+    assert thrown > 100
+    assert undisturbed.time.tobytes() == disturbed.time.tobytes()
+    assert undisturbed.values.tobytes() == disturbed.values.tobytes()
+
+
+# the command
+
+
+def test_the_command_needs_little_time_and_memory(tmp_path):
+    """15 s and 500 MB at most; processor time, since the machine may be busy."""
+    command = [sys.executable, "-m", "railcosim", "run", "--json"]
+    command += ["--output", str(tmp_path / "passage.nc"), "--plot", str(tmp_path / "passage.png")]
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    answer = subprocess.run(command, check=True, capture_output=True, text=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    numbers = json.loads(answer.stdout)
+    assert 0.45e-3 <= numbers["max_sleeper_displacement"] <= 0.47e-3
+    assert after.ru_utime - before.ru_utime < 15.0
+    assert after.ru_maxrss < 500_000
+    assert (tmp_path / "passage.nc").stat().st_size > 1e5
+    assert (tmp_path / "passage.png").stat().st_size > 1e4
+
+
+def test_two_runs_are_the_same_bit_for_bit(passages):
+    key = ("run.approach=0.2", "run.departure=0.2")
+    first = passages.dataset(*key)
+    again = passages.__class__().dataset(*key)
+    for name in ("contact_force", "rail_displacement", "sleeper_displacement"):
+        assert first[name].to_numpy().tobytes() == again[name].to_numpy().tobytes()
