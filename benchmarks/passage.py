@@ -22,8 +22,8 @@ from railcosim.summary import Summary, summarise
 REFERENCE = ("master.step=2e-5",)
 CASES = {
     "newton, tolerance 1e-2": ("master.tolerance=1e-2",),
-    "newton, tolerance 5e-3 (default)": (),
-    "newton, tolerance 2.5e-3": ("master.tolerance=2.5e-3",),
+    "newton, tolerance 2e-3 (default)": (),
+    "newton, tolerance 5e-4": ("master.tolerance=5e-4",),
     "newton, 200 us": ("master.step=2e-4",),
     "newton, 100 us": ("master.step=1e-4",),
     "newton, 50 us": ("master.step=5e-5",),

@@ -1,9 +1,9 @@
 """Couple both FMUs in a loop of one's own, with fmpy alone.
 
 The contact force over a step is extrapolated on a straight line, the track takes its step, then
-the vehicle takes its own with the new rail displacement (Gauss-Seidel). Nothing is repeated, so the
-step has to be small: at 50 us this explicit scheme is unstable. `railcosim run` iterates and rejects
-steps instead.
+the vehicle takes its own with the new rail displacement (Gauss-Seidel). Nothing is repeated, so
+the step has to be small: at 50 us this explicit scheme is unstable. `railcosim run` iterates and
+rejects steps instead.
 
     python examples/hand_written_loop.py dist/Track.fmu dist/Vehicle.fmu
 """

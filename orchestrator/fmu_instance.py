@@ -1,5 +1,6 @@
 """One instance of an FMU in memory: unpacked, loaded, instantiated, freed."""
 
+from contextlib import chdir
 from ctypes import c_void_p
 from tempfile import TemporaryDirectory
 
@@ -53,12 +54,13 @@ class FmuInstance:
         self._slave: FMU2Slave | None = None
         try:
             fmpy.extract(description.path, self._folder.name)
-            self._slave = FMU2Slave(
-                guid=description.guid,
-                unzipDirectory=self._folder.name,
-                modelIdentifier=description.model_identifier,
-                instanceName=name,
-            )
+            with chdir("."):  # fmpy stays in the library's folder when loading it fails
+                self._slave = FMU2Slave(
+                    guid=description.guid,
+                    unzipDirectory=self._folder.name,
+                    modelIdentifier=description.model_identifier,
+                    instanceName=name,
+                )
             # Without logging switched on, some FMUs do not even say why they fail.
             self._slave.instantiate(callbacks=log.callbacks, loggingOn=True)
         except Exception as error:

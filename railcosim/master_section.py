@@ -36,8 +36,8 @@ class Master:
     """
 
     algorithm: Annotated[str, Choice(("newton", "gauss_seidel", "jacobi"))] = "newton"
-    tolerance: Annotated[float, Number(above=0.0)] = 5e-3
-    coupling_tolerance: Annotated[float, Number(above=0.0)] = 1e-7
+    tolerance: Annotated[float, Number(above=0.0)] = 2e-3
+    coupling_tolerance: Annotated[float, Number(above=0.0)] = 1e-6
     step: Annotated[float | None, Number(unit="s", above=0.0)] = None
     initial_step: Annotated[float | None, Number(unit="s", above=0.0)] = None
     min_step: Annotated[float | None, Number(unit="s", above=0.0)] = None

@@ -28,6 +28,7 @@ MAY_IMPORT = {
         "pyarrow",
         "rich",
         "scipy",
+        "threadpoolctl",
         "typer",
         "xarray",
     },

@@ -87,6 +87,7 @@ class TrackModel:
         )
         self._exponentials: OrderedDict[float, ExponentialStep] = OrderedDict()
         self._operator: StepOperator | None = None
+        self._observation: Observation | None = None
 
     @property
     def state(self) -> FloatArray:
@@ -101,6 +102,7 @@ class TrackModel:
                 f"has {self._state.flat.size}; it was saved with other parameters"
             )
         self._state.flat[:] = saved
+        self._observation = None
 
     @property
     def rail_displacement(self) -> FloatArray:
@@ -133,6 +135,7 @@ class TrackModel:
             speed=self.options.initial_speed,
         )
         self._state.position[:] = positions
+        self._observation = None
 
     def step(
         self, step_size: float, positions: FloatArray, forces: FloatArray, *, linear: bool = True
@@ -174,12 +177,16 @@ class TrackModel:
                 linear=linear,
             )
         operator.apply(self._state, forces)
+        self._observation = None
 
     def observe(self) -> Observation:
-        """Displacements, forces and bending moments in the present state."""
-        return Observation(
-            self.track, self._state, wheels=self._locate(self._state.position), gauges=self._gauges
-        )
+        """Displacements, forces and bending moments in the present state, until it changes."""
+        if self._observation is None:
+            wheels = self._locate(self._state.position)
+            self._observation = Observation(
+                self.track, self._state, wheels=wheels, gauges=self._gauges
+            )
+        return self._observation
 
     def _check_forces(self, forces: FloatArray) -> None:
         for number, force in enumerate(forces, start=1):

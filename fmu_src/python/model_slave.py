@@ -16,7 +16,7 @@ from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
-from pythonfmu import Fmi2Slave
+from pythonfmu import Fmi2Slave, Real
 from pythonfmu.enums import Fmi2Status
 
 from .model_description import complete
@@ -85,6 +85,12 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         place = {v.name: i for i, v in enumerate(inputs)}
         for variable in self._declared:
             self._register(variable, place)
+        # by value reference; the generic way of pythonfmu costs more than a step of the model
+        self._real_getters = {
+            reference: scalar.getter
+            for reference, scalar in self.vars.items()
+            if isinstance(scalar, Real)
+        }
 
     @abstractmethod
     def declare(self) -> Sequence[Variable]:
@@ -152,6 +158,14 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         self._time = current_time + step_size
         self._outputs.clear()
         return True
+
+    def get_real(self, vrs: Sequence[int]) -> list[float]:
+        """Values of Real variables."""
+        getters = self._real_getters
+        try:
+            return [getters[reference]() for reference in vrs]
+        except KeyError as error:
+            raise TypeError(f"{self.instance_name}: no Real has value reference {error}") from None
 
     def to_xml(self, model_options: Mapping[str, str] | None = None) -> Element:
         """Complete model description."""

@@ -1,6 +1,7 @@
 """Files and start values that are refused, each with one clear sentence."""
 
 import zipfile
+from pathlib import Path
 
 import pytest
 
@@ -96,6 +97,8 @@ def test_a_library_that_cannot_be_loaded_is_named(fmu, tmp_path, unpacked):
         lambda name, data: b"nothing" if name.startswith("binaries/") else data,
     )
     mass = FmuParticipant(path, name="mass")
+    here = Path.cwd()
     with pytest.raises(ParticipantError, match=r"^mass: it could not be loaded \(.*\)\.$"):
         Master(System([mass], []), MasterSettings(tolerance=1e-3)).run(0.0, 1.0)
     assert list(unpacked.iterdir()) == []
+    assert Path.cwd() == here

@@ -1,7 +1,6 @@
 """The paper's demonstration example, through both FMUs and the master."""
 
 import json
-import resource
 import subprocess
 import sys
 
@@ -52,7 +51,8 @@ def test_largest_sleeper_displacement_with_and_without_the_flat(passages):
 def test_contact_force_is_that_of_the_full_model(passages, overrides, drop, state_dependent):
     """The whole track without modes, by Newmark's rule: 1 % of the load at all times.
 
-    Every step of 200 us is allowed to the master, of 25 us to the full model.
+    The difference is largest in the vibration after the strike, where a relative error of the
+    frequency of 0.05 % adds up; it vanishes with the tolerance of the master.
     """
     full = FullModel(state_dependent=state_dependent)
     expected = full.run(speed=SPEED, drop=drop, stop=17.6, step=2.5e-5)
@@ -110,9 +110,9 @@ def test_peak_forces_over_all_speeds(passages):
 @pytest.mark.parametrize(
     "override",
     [
-        "master.tolerance=2.5e-3",
+        "master.tolerance=1e-3",
         "master.step=1e-4",
-        "master.coupling_tolerance=5e-8",
+        "master.coupling_tolerance=1e-7",
         "track.mode_pairs=300",
         "track.supports_per_wheel=12",
     ],
@@ -208,19 +208,32 @@ def test_attempts_thrown_away_at_random_leave_no_trace():
 # the command
 
 
+MEASURED = """
+import atexit, sys, time
+from pathlib import Path
+from railcosim.cli import main
+def report():
+    status = Path("/proc/self/status").read_text()
+    kilobytes = status.split("VmHWM:")[1].split()[0]
+    print("used", kilobytes, time.process_time(), file=sys.stderr)
+atexit.register(report)
+main()
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads the peak memory from /proc")
 def test_the_command_needs_little_time_and_memory(tmp_path):
     """15 s and 500 MB at most; processor time, since the machine may be busy."""
-    command = [sys.executable, "-m", "railcosim", "run", "--json"]
-    command += ["--output", str(tmp_path / "passage.nc"), "--plot", str(tmp_path / "passage.png")]
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    files = [tmp_path / "passage.nc", tmp_path / "passage.png"]
+    options = ["run", "--json", "--output", str(files[0]), "--plot", str(files[1])]
+    command = [sys.executable, "-c", MEASURED, *options]
     answer = subprocess.run(command, check=True, capture_output=True, text=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
     numbers = json.loads(answer.stdout)
     assert 0.45e-3 <= numbers["max_sleeper_displacement"] <= 0.47e-3
-    assert after.ru_utime - before.ru_utime < 15.0
-    assert after.ru_maxrss < 500_000
-    assert (tmp_path / "passage.nc").stat().st_size > 1e5
-    assert (tmp_path / "passage.png").stat().st_size > 1e4
+    kilobytes, seconds = map(float, answer.stderr.split("used")[-1].split())
+    assert seconds < 15.0
+    assert kilobytes < 500_000
+    assert all(file.stat().st_size > 1e4 for file in files)
 
 
 def test_two_runs_are_the_same_bit_for_bit(passages):
