@@ -14,7 +14,6 @@ from orchestrator import (
     MasterSettings,
     ParticipantError,
     Recorder,
-    Reject,
     RunError,
     Status,
     StatusKind,
@@ -22,25 +21,7 @@ from orchestrator import (
     System,
 )
 from orchestrator.decision import Cause
-
-
-class Throwing:
-    """Throws attempts away at random and asks for the same step again."""
-
-    def __init__(self, inner, share, seed):
-        self.inner = inner
-        self.share = share
-        self.random = np.random.default_rng(seed)
-        self.thrown = 0
-
-    def __getattr__(self, name):
-        return getattr(self.inner, name)
-
-    def decide(self, candidate):
-        if self.random.random() < self.share:
-            self.thrown += 1
-            return Reject(Cause.ERROR, candidate.step_size)
-        return self.inner.decide(candidate)
+from tests.throwing import Throwing
 
 
 def controller():

@@ -7,11 +7,12 @@ import sys
 import numpy as np
 import pytest
 
-from orchestrator import Cause, Master, Recorder, Reject
+from orchestrator import Master, Recorder
 from railcosim.coupled_system import connect, indicators, master_settings
 from railcosim.motion import speed_law
 from railcosim.passage import build_for
 from railcosim.scenario_file import read_scenario
+from tests.throwing import Throwing
 
 from .full_model import FullModel, haversine
 
@@ -154,24 +155,6 @@ def test_a_fresh_flat_loses_contact_and_strikes(passages):
     # one of the two points beside a change of side lies on the switch
     landed = np.minimum(np.abs(gap[crossing]), np.abs(gap[crossing + 1]))
     assert landed.max() < 1e-9
-
-
-class Throwing:
-    """Throws away attempts at random and asks for the same step again."""
-
-    def __init__(self, inner, share, seed):
-        self._inner, self._share = inner, share
-        self._random = np.random.default_rng(seed)
-        self.thrown = 0
-
-    def __getattr__(self, name):
-        return getattr(self._inner, name)
-
-    def decide(self, candidate):
-        if self._random.random() < self._share:
-            self.thrown += 1
-            return Reject(Cause.ERROR, candidate.step_size)
-        return self._inner.decide(candidate)
 
 
 def recorded(overrides, share):
