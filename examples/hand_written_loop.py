@@ -5,7 +5,7 @@ the vehicle takes its own with the new rail displacement (Gauss-Seidel). Nothing
 the step has to be small: at 50 us this explicit scheme is unstable. `railcosim run` iterates and
 rejects steps instead.
 
-    python examples/hand_written_loop.py dist/Track.fmu dist/Vehicle.fmu
+    .venv/bin/python examples/hand_written_loop.py dist/Track.fmu dist/Vehicle.fmu
 """
 
 from __future__ import annotations
@@ -92,4 +92,6 @@ def passage(track_path: str, vehicle_path: str) -> float:
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(f"usage: {sys.argv[0]} TRACK.fmu VEHICLE.fmu")
     print(f"largest contact force: {passage(*sys.argv[1:3]) / 1e3:.1f} kN")

@@ -2,7 +2,7 @@
 
 The track under a force that moves at 40 km/h, and the vehicle on a rail that sags as it passes.
 
-    python examples/single_fmus.py dist/Track.fmu dist/Vehicle.fmu
+    .venv/bin/python examples/single_fmus.py dist/Track.fmu dist/Vehicle.fmu
 """
 
 from __future__ import annotations
@@ -72,6 +72,8 @@ def vehicle_on_prescribed_rail(path: str) -> float:
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(f"usage: {sys.argv[0]} TRACK.fmu VEHICLE.fmu")
     track, vehicle = sys.argv[1:3]
     print(f"rail displacement: {track_under_moving_forces(track) * 1e3:.3f} mm")
     print(f"contact force: {vehicle_on_prescribed_rail(vehicle) / 1e3:.1f} kN")

@@ -12,6 +12,8 @@ from fmpy.fmi2 import (
 )
 
 kept_messages = 5
+pythonfmu_echo = ("Fatal py exception encountered", "unknown error")
+"""How a message of pythonfmu begins and ends that only repeats that the one before it was fatal."""
 status_names = ("ok", "warning", "discard", "error", "fatal", "pending")
 
 
@@ -47,5 +49,10 @@ class FmuLog:
         message: bytes | None,
     ) -> None:
         label = status_names[status] if 0 <= status < len(status_names) else str(status)
-        text = (message or b"").decode("utf-8", errors="replace")
-        self.messages.append(f"[{label}] {' '.join(text.split())}")
+        text = " ".join((message or b"").decode("utf-8", errors="replace").split())
+        if not (
+            self.messages
+            and text.startswith(pythonfmu_echo[0])
+            and text.endswith(pythonfmu_echo[1])
+        ):
+            self.messages.append(f"[{label}] {text}")

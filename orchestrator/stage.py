@@ -116,12 +116,13 @@ class Stage:
         self, what: str, time: float | None = None, step_size: float | None = None
     ) -> ParticipantError:
         """Return the error that says what happened, when and with which inputs."""
+        inputs = dict(zip(self.input_names, self.inputs.tolist(), strict=True))
         return ParticipantError(
             participant=self.participant.name,
             failure=what,
             time=time,
             step_size=step_size,
-            inputs=dict(zip(self.input_names, self.inputs.tolist(), strict=True)),
+            inputs=inputs if step_size is not None else None,
             messages=self.participant.messages,
         )
 

@@ -115,7 +115,7 @@ class ErrorControl:
             )
         self.min_step = min_step
         sizes = [max_step]
-        while sizes[-1] / grid_ratio > min_step:
+        while sizes[-1] / grid_ratio > min_step * (1.0 + 1e-9):
             sizes.append(max_step * grid_ratio ** -len(sizes))
         if min_step < sizes[-1]:
             sizes.append(min_step)

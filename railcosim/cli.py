@@ -1,11 +1,13 @@
 """The command line: `railcosim run` and `railcosim build`."""
 
 import json
+import signal
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 import xarray as xr
@@ -16,6 +18,7 @@ from build_fmus import default_directory
 from . import __version__
 from .errors import InputError, RunError
 from .figures import describe, draw_passage
+from .notes import notes
 from .output import DATA_SUFFIXES, FIGURE_SUFFIXES, check_writable, write_dataset, write_figure
 from .passage import build_for, run_passage
 from .progress import progress_bar
@@ -23,6 +26,9 @@ from .scenario import Scenario
 from .scenario_file import read_scenario
 from .summary import summarise
 from .summary_table import summary_table
+
+USAGE_ERROR: Any = typer.BadParameter.__mro__[1]
+"""What typer raises for a wrong command line; newer versions bring a click of their own."""
 
 app = typer.Typer(
     name="railcosim",
@@ -41,7 +47,16 @@ class FmuKind(StrEnum):
 
 def main() -> None:
     """Run the command line; the process ends with 0 done, 1 the run failed, 2 wrong input."""
-    app()
+    # a run ends as after Ctrl-C, with its folders removed
+    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+    try:
+        code = app(sys.argv[1:] or ["--help"], standalone_mode=False)
+    except USAGE_ERROR as error:
+        _say(f"{' '.join(error.format_message().split())}; see railcosim --help")
+        code = 2
+    except typer.Abort:
+        code = 1
+    sys.exit(code)
 
 
 def _show_version(wanted: bool) -> None:
@@ -92,6 +107,8 @@ def run(
             check_writable(output, option="--output", suffixes=DATA_SUFFIXES)
         if plot is not None:
             check_writable(plot, option="--plot", suffixes=FIGURE_SUFFIXES)
+        for note in notes(case):
+            _say(f"note: {note}")
         passage = _followed_run(case, fmus, quiet=quiet)
         if output is not None:
             write_dataset(passage, output)

@@ -80,6 +80,7 @@ def track_values(scenario: Scenario, law: SpeedLaw) -> dict[str, Value]:
         for item in fields(Track)
         if item.name not in BUILT_IN
     }
+    own["mode_pairs"] = scenario.track.retained_pairs
     gauges = {
         f"gauge[{k}].position": position
         for k, position in enumerate(scenario.gauge_positions, start=1)

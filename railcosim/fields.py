@@ -17,6 +17,10 @@ LONGEST = 10**300
 """Integers from here on are no numbers: they do not fit into a float."""
 
 
+LONGEST_SHOWN = 80
+"""Characters of a wrong value that a message repeats."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Number:
     """Limits and unit of a numeric key; booleans and texts are no numbers.
@@ -130,7 +134,9 @@ def check_fields(section: DataclassInstance, name: str) -> None:
             wanted = rule.complaint(value)
         if wanted is not None:
             shown = (
-                rule.show(value) if isinstance(rule, Number) and _is_number(value) else repr(value)
+                rule.show(value)
+                if isinstance(rule, Number) and _is_number(value)
+                else _shortened(value)
             )
             raise InputError(f"{key} is {shown} but must be {wanted}{_default_hint(item, rule)}")
 
@@ -174,3 +180,12 @@ def _default_hint(item: Field[object], rule: object) -> str:
     if isinstance(rule, Number) and isinstance(item.default, (int, float)):
         return f" (default {rule.show(item.default)})"
     return f" (default {str(item.default).lower()})"
+
+
+def _shortened(value: object) -> str:
+    """Show a wrong value, however long it is."""
+    try:
+        text = repr(value)
+    except ValueError:  # Python writes whole numbers of up to 4300 digits only
+        return "a number too long to show"
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}..."

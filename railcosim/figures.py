@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .sections import Flat
 
 SPAN = (-0.5, 1.0)
-"""Part of the run that is drawn: the flat's wheel from the flat's centre [m]."""
+"""Part of the run that is drawn of a single strike: the flat's wheel from the flat's centre [m]."""
 
 BLUE, QUIET = "#0072B2", "#767676"
 """The flat's wheel, of Okabe & Ito's colours that colour-blind readers tell apart, and a grey."""
@@ -41,8 +41,10 @@ def draw_passage(passage: xr.Dataset) -> Figure:
         Three panels above each other; save it in the format wanted.
     """
     scenario = from_toml(passage.attrs["scenario"])
-    distance = passage["distance"]
-    drawn = passage.isel(time=((distance >= SPAN[0]) & (distance <= SPAN[1])).to_numpy())
+    drawn = passage
+    if _strikes_once(scenario):
+        distance = passage["distance"]
+        drawn = passage.isel(time=((distance >= SPAN[0]) & (distance <= SPAN[1])).to_numpy())
     figure = Figure(figsize=(8.0, 9.0), layout="constrained")
     force, displacement, moment = figure.subplots(3, 1, sharex=True)
     _draw_forces(force, drawn)
@@ -66,15 +68,23 @@ def describe(scenario: Scenario) -> str:
     vehicle, flat = scenario.vehicle, scenario.flat
     speed = "speed table" if vehicle.speed_table else f"{3.6 * vehicle.constant_speed:g} km/h"
     wheel = "round wheels" if flat.shape == "none" else f"{_size(flat)} flat on wheel {flat.wheel}"
-    return f"{speed}, {wheel}, {scenario.track.ballast.replace('_', '-')} track"
+    rail = ", rail irregularity" if vehicle.rail_irregularity else ""
+    return f"{speed}, {wheel}{rail}, {scenario.track.ballast.replace('_', '-')} track"
+
+
+def _strikes_once(scenario: Scenario) -> bool:
+    """Whether all that happens is one strike of the flat."""
+    flat = scenario.flat
+    return flat.shape != "none" and not flat.periodic and not scenario.vehicle.rail_irregularity
 
 
 def _size(flat: Flat) -> str:
     """Say which flat it is by the parameters that its shape uses."""
+    kinds = "".join(f"{word} " for word in ("periodic", "rolled") if getattr(flat, word))
     if flat.is_measured:
-        return "measured"
+        return f"{kinds}measured"
     length = f"{1e3 * flat.length:g} mm"
-    return f"{flat.shape} {length}" + (
+    return f"{kinds}{flat.shape} {length}" + (
         "" if flat.shape == "chord" else f" x {1e3 * flat.depth:g} mm"
     )
 

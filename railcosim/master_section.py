@@ -38,10 +38,10 @@ class Master:
     algorithm: Annotated[str, Choice(("newton", "gauss_seidel", "jacobi"))] = "newton"
     tolerance: Annotated[float, Number(above=0.0)] = 2e-3
     coupling_tolerance: Annotated[float, Number(above=0.0)] = 1e-6
-    step: Annotated[float | None, Number(unit="s", above=0.0)] = None
-    initial_step: Annotated[float | None, Number(unit="s", above=0.0)] = None
-    min_step: Annotated[float | None, Number(unit="s", above=0.0)] = None
-    max_step: Annotated[float | None, Number(unit="s", above=0.0)] = None
+    step: Annotated[float | None, Number(unit="s", above=0.0, at_most=1e-2)] = None
+    initial_step: Annotated[float | None, Number(unit="s", above=0.0, at_most=1e-2)] = None
+    min_step: Annotated[float | None, Number(unit="s", above=0.0, at_most=1e-2)] = None
+    max_step: Annotated[float | None, Number(unit="s", above=0.0, at_most=1e-2)] = None
     max_iterations: Annotated[int, Number(at_least=1)] = 30
     max_rejections: Annotated[int, Number(at_least=1)] = 100
 
@@ -51,6 +51,11 @@ class Master:
             raise InputError(
                 f"master.step = {self.step:g} s leaves master.initial_step and master.max_step no "
                 "meaning: leave either it or them out"
+            )
+        if self.algorithm != "newton" and self.step is None:
+            raise InputError(
+                f"master.algorithm is {self.algorithm!r}, which takes steps of one size only: give "
+                "master.step, 2.5e-5 s or less, or use newton"
             )
         names = ("min_step", "initial_step", "step", "max_step")
         sizes = [(n, value) for n in names if (value := getattr(self, n)) is not None]

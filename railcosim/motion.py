@@ -42,4 +42,5 @@ def travel_time(law: SpeedLaw, distance: float) -> float:
     if isinstance(law, ConstantSpeed):
         return distance / law.speed
     latest = distance / float(law.speed.min())
+    latest += 1e-6 * latest  # at a constant speed rounding may leave the exact time short
     return float(brentq(lambda t: law.distance(0.0, t) - distance, 0.0, latest, xtol=1e-12))

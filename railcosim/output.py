@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import importlib.util
+import io
 import os
 import tempfile
 from contextlib import contextmanager
@@ -26,6 +27,10 @@ DATA_SUFFIXES = (".nc", ".csv", ".parquet")
 
 FIGURE_SUFFIXES = (".png", ".pdf", ".svg")
 """Kinds of figure file."""
+
+
+TEMPORARY = ".railcosim-"
+"""How the folder beside a result begins in which it is written."""
 
 
 def check_writable(path: Path, *, option: str, suffixes: tuple[str, ...]) -> None:
@@ -51,9 +56,13 @@ def check_writable(path: Path, *, option: str, suffixes: tuple[str, ...]) -> Non
             f"{option} {path} ends with {path.suffix!r} but must end with one of "
             f"{', '.join(suffixes)}: rename it"
         )
-    if path.is_dir():
+    try:
+        is_folder, has_folder = path.is_dir(), path.parent.is_dir()
+    except OSError as error:
+        raise InputError(f"{option} {path} is no usable name ({error.strerror})") from error
+    if is_folder:
         raise InputError(f"{option} {path} is a folder: name a file in it")
-    if not path.parent.is_dir():
+    if not has_folder:
         raise InputError(f"{option} {path} lies in a folder that does not exist: create it first")
     if path.suffix.lower() == ".parquet" and importlib.util.find_spec("pyarrow") is None:
         raise InputError(
@@ -61,8 +70,8 @@ def check_writable(path: Path, *, option: str, suffixes: tuple[str, ...]) -> Non
             "write a .nc or .csv file"
         )
     try:
-        with tempfile.TemporaryFile(dir=path.parent):
-            pass
+        with tempfile.TemporaryDirectory(dir=path.parent, prefix=TEMPORARY) as folder:
+            (Path(folder) / path.name).touch()  # a name may be too long for the file system
         writable = not path.exists() or os.access(path, os.W_OK)
     except OSError:
         writable = False
@@ -110,19 +119,23 @@ def write_figure(figure: Figure, path: Path) -> None:
 def _replacing(path: Path) -> Iterator[Path]:
     """Yield a temporary file that takes the place of ``path`` if the block succeeds."""
     try:
-        with tempfile.TemporaryDirectory(dir=path.parent, prefix=f".{path.name}.") as folder:
+        with tempfile.TemporaryDirectory(dir=path.parent, prefix=TEMPORARY) as folder:
             temporary = Path(folder) / path.name
             yield temporary
             temporary.replace(path)
     except OSError as error:
         raise RunError(
-            f"{path} cannot be written: {error.strerror or error}; free some space or choose "
+            f"{path} cannot be written: {error.strerror or 'the system refuses'}; free some space "
+            "or choose "
             "another place"
         ) from error
 
 
 def _write_netcdf(passage: xr.Dataset, path: Path) -> None:
-    passage.to_netcdf(path, engine="h5netcdf")
+    """Write the file in memory first: HDF5 ends the process when the disk is full."""
+    content = io.BytesIO()
+    passage.to_netcdf(content, engine="h5netcdf")
+    path.write_bytes(content.getbuffer())
 
 
 def _write_csv(passage: xr.Dataset, path: Path) -> None:

@@ -38,6 +38,9 @@ if TYPE_CHECKING:
     from .signals import Signal
     from .watched_control import Progress
 
+FEWEST_POINTS = 2
+"""Accepted points that make a result."""
+
 LIBRARIES = ("numpy", "scipy", "fmpy", "pythonfmu", "xarray")
 """Libraries whose versions a result names."""
 
@@ -80,6 +83,7 @@ def run_passage(
     law = speed_law(scenario.vehicle)
     check_profiles(scenario)
     paths = build_for(scenario, directory=directory, notify=notify)
+    provenance = _provenance(paths)
     try:
         with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
             recorder, outcome = _simulate(scenario, law, paths, report)
@@ -87,6 +91,8 @@ def run_passage(
         raise InputError(str(error)) from error
     except orchestrator.RunError as error:
         raise RunError(str(error)) from error
+    if len(recorder.time) < FEWEST_POINTS:
+        raise RunError("interrupted before there was anything to keep")
     log = outcome.step_log
     names = np.array(["accepted", *(cause.name.lower() for cause in Cause)])
     return assemble(
@@ -95,7 +101,7 @@ def run_passage(
         series=_series(scenario, recorder),
         attempts={name: log[name] for name in log.dtype.names or ()}
         | {"cause": names[log["cause"]]},
-        attributes={"fmus": fmus, **_provenance(paths), **_statistics(outcome)},
+        attributes={"fmus": fmus, **provenance, **_statistics(outcome)},
     )
 
 

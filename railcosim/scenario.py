@@ -80,7 +80,8 @@ class Scenario:
         if master.step is None:
             master = replace(master, max_step=master.largest_step)
         flat = replace(self.flat, position=self.flat_position)
-        return replace(self, vehicle=vehicle, flat=flat, master=master)
+        track = replace(self.track, mode_pairs=self.track.retained_pairs)
+        return replace(self, track=track, vehicle=vehicle, flat=flat, master=master)
 
     def _check_flat(self) -> None:
         """Refuse a flat that its wheel or its track cannot hold."""
@@ -110,9 +111,14 @@ class Scenario:
             return
         approach = _rounded_down(self.run.approach + start)
         remedy = f"shorten run.approach to at most {approach:g} m or " if approach > 0.0 else ""
+        position = -_rounded_down(start - self.flat_position)
+        remedy += (
+            f"move flat.position to at least {position:g} m"
+            if position < self.track.length
+            else "raise track.bays"
+        )
         raise InputError(
-            f"wheel {wheel} would start at {start:g} m but the track begins at 0 m: {remedy}move "
-            f"flat.position to at least {-_rounded_down(start - self.flat_position):g} m"
+            f"wheel {wheel} would start at {start:g} m but the track begins at 0 m: {remedy}"
         )
 
     def _check_end_of_track(self) -> None:
@@ -123,10 +129,12 @@ class Scenario:
             return
         departure = _rounded_down(self.run.departure - beyond)
         remedy = f"shorten run.departure to at most {departure:g} m, " if departure > 0.0 else ""
+        position = _rounded_down(self.flat_position - beyond)
+        if position > 0.0:
+            remedy += f"move flat.position to at most {position:g} m "
         raise InputError(
             f"wheel 1 would end at {end:g} m but the track ends at {self.track.length:g} m: "
-            f"{remedy}move flat.position to at most "
-            f"{_rounded_down(self.flat_position - beyond):g} m or raise track.bays"
+            f"{remedy}{'or ' if remedy else ''}raise track.bays"
         )
 
 

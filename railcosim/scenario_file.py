@@ -32,6 +32,9 @@ KEYS: Mapping[str, tuple[str, ...]] = {
 }
 """Keys of every section."""
 
+SHOWN = 80
+"""Characters of a wrong value that a message repeats."""
+
 _Values: TypeAlias = dict[str, dict[str, Any]]
 
 
@@ -123,19 +126,24 @@ def _put(values: _Values, section: str, key: str, value: object, folder: Path) -
             f"[{section}] ({_listed(KEYS[section])})?"
         )
     if isinstance(value, str) and holds_file(SECTIONS[section], key, value):
-        value = str((folder / Path(value).expanduser()).resolve())
+        try:
+            value = str((folder / Path(value).expanduser()).resolve())
+        except (OSError, ValueError, RuntimeError) as error:
+            raise InputError(
+                f"{section}.{key} is {value[:SHOWN]!r}, which is no usable path ({error})"
+            ) from error
     values[section][key] = value
 
 
 def _read_toml(path: Path) -> dict[str, Any]:
     """Read a TOML file, or say in one sentence why not."""
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise InputError(
             f"cannot read the scenario {path}: {error.strerror or error}; check the path"
         ) from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except (ValueError, RecursionError) as error:  # numbers too long, tables too deep
         raise InputError(f"the scenario {path} is not valid TOML: {error}; correct it") from error
 
 
@@ -150,7 +158,7 @@ def _parse_override(text: str) -> tuple[str, str, Any]:
         )
     try:
         return section, key, tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):
         return section, key, value.strip()
 
 

@@ -11,6 +11,9 @@ from .fields import Choice, CsvFile, Number, check_fields, is_csv
 GRAVITY = 9.81
 """Gravitational acceleration that turns an axle load into a force [m/s2]."""
 
+MOST_DEGREES_OF_FREEDOM = 10_000
+"""Size of track whose modes fit in a few gigabytes of memory."""
+
 DEFAULT_SPEED_KMH = 40.0
 """Speed of the demonstration example [km/h]."""
 
@@ -37,8 +40,8 @@ class Track:
         ``state_dependent``: Eq. (27) and (30) on top of the linear ballast; ``linear``: without.
     ballast_alpha, ballast_beta, ballast_delta : float
         Coefficients of Eq. (27) [N/m2], [N/m3], [N/m4].
-    mode_pairs : int
-        Retained pairs of complex modes.
+    mode_pairs : int, optional
+        Retained pairs of complex modes; see `retained_pairs`.
     residual_flexibility : bool
         Whether the static part of the other modes is kept, Eq. (13).
     supports_per_wheel : int
@@ -61,13 +64,19 @@ class Track:
     ballast_alpha: Annotated[float, Number(unit="N/m2")] = 0.37e12
     ballast_beta: Annotated[float, Number(unit="N/m3")] = -2.47e15
     ballast_delta: Annotated[float, Number(unit="N/m4")] = 5.75e18
-    mode_pairs: Annotated[int, Number(unit="pairs", at_least=1)] = 150
+    mode_pairs: Annotated[int | None, Number(unit="pairs", at_least=1)] = None
     residual_flexibility: bool = True
     supports_per_wheel: Annotated[int, Number(unit="supports", at_least=1)] = 6
 
     def __post_init__(self) -> None:
         check_fields(self, "track")
-        if self.mode_pairs > self.degrees_of_freedom:
+        if self.degrees_of_freedom > MOST_DEGREES_OF_FREEDOM:
+            raise InputError(
+                f"track.bays = {self.bays} with track.elements_per_bay = {self.elements_per_bay} "
+                f"make {self.degrees_of_freedom} degrees of freedom, but at most "
+                f"{MOST_DEGREES_OF_FREEDOM} can be solved: use fewer of either"
+            )
+        if self.mode_pairs is not None and self.mode_pairs > self.degrees_of_freedom:
             raise InputError(
                 f"track.mode_pairs is {self.mode_pairs} but a track of {self.bays} bays with "
                 f"{self.elements_per_bay} elements each has only {self.degrees_of_freedom} mode "
@@ -78,6 +87,11 @@ class Track:
     def length(self) -> float:
         """Length between the clamped ends [m]."""
         return self.bays * self.sleeper_spacing
+
+    @property
+    def retained_pairs(self) -> int:
+        """Retained pairs of complex modes; without a number three per bay, up to 2.7 kHz."""
+        return self.mode_pairs or min(3 * self.bays, self.degrees_of_freedom)
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -108,14 +122,15 @@ class Vehicle:
     hertz_coefficient : float
         Contact force per compression to the power 3/2 [N/m1.5].
     rail_irregularity : str
-        CSV file with the columns position [m] and height [m], empty for a smooth rail.
+        CSV file with the columns position [m] and drop [m] of the railhead, downwards positive;
+        empty for a smooth rail.
     """
 
-    speed_kmh: Annotated[float | None, Number(unit="km/h", above=0.0, at_most=1000.0)] = None
+    speed_kmh: Annotated[float | None, Number(unit="km/h", at_least=0.1, at_most=1000.0)] = None
     speed_table: Annotated[str, CsvFile()] = ""
     wheels: Annotated[int, Number(unit="wheels", at_least=1, at_most=100)] = 2
     wheel_mass: Annotated[float, Number(unit="kg", above=0.0)] = 592.5
-    axle_load_t: Annotated[float, Number(unit="t", above=0.0, at_most=100.0)] = 24.0
+    axle_load_t: Annotated[float, Number(unit="t", at_least=0.1, at_most=100.0)] = 24.0
     axle_base: Annotated[float, Number(unit="m", above=0.0)] = 1.8
     wheel_radius: Annotated[float, Number(unit="m", above=0.0)] = 0.45
     hertz_coefficient: Annotated[float, Number(unit="N/m1.5", above=0.0)] = 9.17e10
@@ -167,7 +182,7 @@ class Flat:
         str, Choice(("haversine", "parabola", "cusp", "chord", "none"), or_csv=True)
     ] = "haversine"
     length: Annotated[float, Number(unit="m", above=0.0)] = 0.1
-    depth: Annotated[float, Number(unit="m", at_least=0.0)] = 0.9e-3
+    depth: Annotated[float, Number(unit="m", at_least=0.0, at_most=0.02)] = 0.9e-3
     wheel: Annotated[int, Number(at_least=1)] = 1
     position: Annotated[float | None, Number(unit="m")] = None
     periodic: bool = False

@@ -6,8 +6,16 @@ from typing import TYPE_CHECKING
 
 from rich.table import Table
 
+from .summary import WINDOW
+
 if TYPE_CHECKING:
     from .summary import Summary
+
+
+WINDOW_CAPTION = (
+    f"Forces and moments: the flat's wheel, {-WINDOW[0]:g} m before to {WINDOW[1]:g} m after the "
+    "flat's centre."
+)
 
 
 def summary_table(summary: Summary, title: str) -> Table:
@@ -25,17 +33,22 @@ def summary_table(summary: Summary, title: str) -> Table:
     rich.table.Table
         Three columns: what, value, unit.
     """
-    table = Table(title=title, show_header=False)
+    table = Table(title=title, caption=WINDOW_CAPTION, show_header=False)
     table.add_column("what")
     table.add_column("value", justify="right")
     table.add_column("unit")
     for what, value, factor, unit in (
         ("largest contact force", summary.peak_contact_force, 1e-3, "kN"),
-        ("  behind the flat's centre", summary.peak_contact_force_position, 1e3, "mm"),
+        ("  from the flat's centre", summary.peak_contact_force_position, 1e3, "mm"),
         ("smallest contact force", summary.min_contact_force, 1e-3, "kN"),
         ("time without contact", summary.loss_of_contact_time, 1e3, "ms"),
         ("largest sleeper displacement", summary.max_sleeper_displacement, 1e3, "mm"),
-        ("largest bending moment at midspan", summary.peak_bending_moment_midspan, 1e-3, "kN m"),
+        (
+            "largest bending moment in the middle of the struck bay",
+            summary.peak_bending_moment_midspan,
+            1e-3,
+            "kN m",
+        ),
         (
             "largest bending moment under the wheel",
             summary.peak_bending_moment_under_wheel,

@@ -32,7 +32,13 @@ if TYPE_CHECKING:
 ComplexArray = NDArray[np.complex128]
 
 EIGENVALUE_TOLERANCE = 1e-12  # relative; set by the condition of the element matrices
+SETTLED = 1e-11  # backward error of an eigenpair of the subspace that is good enough as it is
+DEFECTIVE = 1e-10  # a_n over its damping term, below which a mode is critically damped
+MIXED = 1e-9  # A-product of two modes above which they are made orthogonal
+CLUSTER = 1e-7  # relative distance of eigenvalues whose modes may be mixed
+ORTHOGONALITY = 1e-3  # largest A-product of two modes in the end
 MAX_SWEEPS = 8
+REACH = 1e-3  # relative; how far an eigenvalue of the subspace may be from that of its mode
 SPARE_MODES = 20  # undamped modes beyond the wanted ones, for the last damped ones to settle
 REAL_TOLERANCE = 1e-9  # |Im| / |lambda| below which an eigenvalue of the subspace is real
 
@@ -89,7 +95,33 @@ def solve_damped(
             f"track: mode_pairs = {mode_pairs} must lie between 1 and {size}, the number of "
             "degrees of freedom; use fewer pairs or more elements per bay"
         )
-    subspace = _subspace(mass, stiffness, dampers, count=min(size, mode_pairs + SPARE_MODES))
+    spare = SPARE_MODES
+    while True:  # a larger subspace is better; the largest one is the whole space
+        count = min(size, mode_pairs + spare)
+        subspace = _subspace(mass, stiffness, dampers, count=count)
+        try:
+            return _solve_in(subspace, mass, damping, stiffness, mode_pairs=mode_pairs)
+        except EigenvalueError:
+            if count == size:
+                raise
+            spare *= 4
+
+
+def _solve_in(
+    subspace: FloatArray,
+    mass: sp.csc_array,
+    damping: sp.csc_array,
+    stiffness: sp.csc_array,
+    *,
+    mode_pairs: int,
+) -> EigenPairs:
+    """Lowest eigenpairs, from those of a subspace.
+
+    Raises
+    ------
+    EigenvalueError
+        If the subspace is too coarse for every mode to be refined without meeting another one.
+    """
     eigenvalues, modes = _solve_reduced(mass, damping, stiffness, subspace)
     chosen = _select(eigenvalues, mode_pairs)
     eigenvalues, modes = eigenvalues[chosen], modes[:, chosen]
@@ -99,7 +131,7 @@ def solve_damped(
     order = np.argsort(np.abs(eigenvalues), kind="stable")
     eigenvalues, modes = eigenvalues[order], modes[:, order]
     _normalise(eigenvalues, modes, mass, damping)
-    _check_distinct(eigenvalues, modes, mass, damping)
+    _orthogonalise(eigenvalues, modes, mass, damping)
     return EigenPairs(eigenvalues=eigenvalues, modes=modes)
 
 
@@ -131,7 +163,7 @@ def _solve_reduced(
     state[:count, count:] = np.eye(count)
     state[count:, :count] = -la.cho_solve(factor, k)
     state[count:, count:] = -la.cho_solve(factor, c)
-    eigenvalues, vectors = la.eig(state)
+    eigenvalues, vectors = (np.asarray(part, dtype=np.complex128) for part in la.eig(state))
     real = np.abs(eigenvalues.imag) <= REAL_TOLERANCE * np.abs(eigenvalues)
     eigenvalues[real] = eigenvalues[real].real
     upper = eigenvalues.imag >= 0.0
@@ -156,7 +188,9 @@ class _BandedPolynomial:
     def refine(self, eigenvalue: complex, mode: ComplexArray) -> tuple[complex, ComplexArray]:
         """Inverse iteration with the Rayleigh functional until the eigenvalue stands still."""
         mass, damping, _ = self.matrices
-        is_real = eigenvalue.imag == 0.0
+        is_real, start = eigenvalue.imag == 0.0, eigenvalue
+        if self._backward_error(eigenvalue, mode) <= SETTLED:
+            return eigenvalue, mode  # a sweep could only mix it with a mode that is very close
         for _ in range(MAX_SWEEPS):
             band = self.bands[2] + eigenvalue * (self.bands[1] + eigenvalue * self.bands[0])
             right = 2.0 * eigenvalue * (mass @ mode) + damping @ mode
@@ -171,12 +205,21 @@ class _BandedPolynomial:
             if is_real:
                 mode = mode.real.astype(np.complex128)
             previous, eigenvalue = eigenvalue, self._rayleigh(mode, eigenvalue)
+            if abs(eigenvalue - start) > REACH * abs(start):
+                break  # it went to another mode
             if abs(eigenvalue - previous) <= EIGENVALUE_TOLERANCE * abs(eigenvalue):
                 return eigenvalue, mode
         raise EigenvalueError(
             f"track: the mode near {eigenvalue:.6g} 1/s did not converge in {MAX_SWEEPS} sweeps; "
             "two eigenvalues may coincide: change the damping slightly"
         )
+
+    def _backward_error(self, eigenvalue: complex, mode: ComplexArray) -> float:
+        """Relative change of the matrices that would make this an exact eigenpair."""
+        mass, damping, stiffness = (np.asarray(matrix @ mode) for matrix in self.matrices)
+        terms = (eigenvalue**2 * mass, eigenvalue * damping, stiffness)
+        scale = sum(float(np.linalg.norm(term)) for term in terms)
+        return float(np.linalg.norm(sum(terms))) / scale
 
     def _rayleigh(self, mode: ComplexArray, near: complex) -> complex:
         """Root of ``mode^T T(lambda) mode = 0`` nearest to a given value."""
@@ -204,21 +247,50 @@ def _normalise(
     """Scale the modes in place to ``a_n = 2 lambda rho^T M rho + rho^T C rho = 1``, Eq. (11a)."""
     mass_terms = np.sum(modes * np.asarray(mass @ modes), axis=0)
     damping_terms = np.sum(modes * np.asarray(damping @ modes), axis=0)
-    modes /= np.sqrt(2.0 * eigenvalues * mass_terms + damping_terms)
+    norms = 2.0 * eigenvalues * mass_terms + damping_terms
+    if np.any(np.abs(norms) <= DEFECTIVE * np.abs(damping_terms)):
+        raise EigenvalueError(
+            "track: a mode is critically damped and has no norm; change the damping slightly"
+        )
+    modes /= np.sqrt(norms)
 
 
-def _check_distinct(
+def _orthogonalise(
     eigenvalues: ComplexArray, modes: ComplexArray, mass: sp.csc_array, damping: sp.csc_array
 ) -> None:
-    """Refuse a set in which two modes coincide: their A-product would be 1 instead of 0."""
-    mass_products = modes.T @ np.asarray(mass @ modes)
-    products = modes.T @ np.asarray(damping @ modes) + mass_products * (
-        eigenvalues[:, None] + eigenvalues[None, :]
-    )
-    np.fill_diagonal(products, 0.0)
-    worst = float(np.max(np.abs(products), initial=0.0))
-    if worst > 1e-3:
+    """Make modes of nearly equal eigenvalues A-orthogonal in place, as Eq. (11a) demands.
+
+    Where eigenvalues agree to rounding their modes are found up to a mixture only; the symmetric
+    choice changes them least. A set in which two modes coincide would be incomplete.
+
+    Raises
+    ------
+    EigenvalueError
+        If two modes coincide.
+    """
+    products = _a_products(eigenvalues, modes, mass, damping)
+    related = np.abs(products - np.eye(len(products))) > MIXED
+    for first in np.flatnonzero(related.any(axis=1)):
+        cluster = np.flatnonzero(related[first])
+        cluster = np.union1d(cluster, [first])
+        block = products[np.ix_(cluster, cluster)]
+        spread = np.ptp(np.abs(eigenvalues[cluster])) / abs(eigenvalues[first])
+        if cluster[0] == first and spread < CLUSTER and np.linalg.cond(block) < 1e3:
+            modes[:, cluster] = modes[:, cluster] @ np.linalg.inv(la.sqrtm(block))
+    products = _a_products(eigenvalues, modes, mass, damping)
+    worst = float(np.max(np.abs(products - np.eye(len(products)))))
+    if worst > ORTHOGONALITY:
         raise EigenvalueError(
             f"track: two of the {len(eigenvalues)} modes coincide (orthogonality {worst:.1e}, "
-            "limit 1e-3); change the damping or the number of mode pairs slightly"
+            f"limit {ORTHOGONALITY:g}); change the damping or the number of mode pairs slightly"
         )
+
+
+def _a_products(
+    eigenvalues: ComplexArray, modes: ComplexArray, mass: sp.csc_array, damping: sp.csc_array
+) -> ComplexArray:
+    """``P^T A P`` of Eq. (11a), shape (S, S)."""
+    sums = eigenvalues[:, None] + eigenvalues[None, :]
+    products: ComplexArray = modes.T @ np.asarray(damping @ modes)
+    products += (modes.T @ np.asarray(mass @ modes)) * sums
+    return products

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import OrderedDict
 from dataclasses import dataclass
 
@@ -20,6 +21,7 @@ from .supports import nearest_supports
 from .track_state import TrackState
 
 REMEMBERED_STEP_SIZES = 64
+LONGEST_STEP = 5e-4  # s; beyond about 1.5 ms force increments on straight lines are unstable
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -140,7 +142,7 @@ class TrackModel:
     def step(
         self, step_size: float, positions: FloatArray, forces: FloatArray, *, linear: bool = True
     ) -> None:
-        """Advance by one step.
+        """Advance by one step; a long one is divided into parts of `LONGEST_STEP` at most.
 
         Parameters
         ----------
@@ -163,20 +165,23 @@ class TrackModel:
         if not (np.isfinite(step_size) and step_size > 0.0):
             raise ValueError(f"track: step size {step_size!r} s must be greater than 0")
         self._check_forces(forces)
-        operator = self._operator
-        if operator is None or not operator.serves(self._state, step_size, positions, linear):
-            wheels = self._locate(positions)
-            operator = self._operator = StepOperator(
-                self._state,
-                self.track,
-                self._components.active(self._nearest(positions)),
-                self._exponential(step_size),
-                step_size=step_size,
-                positions=positions,
-                wheels=wheels,
-                linear=linear,
-            )
-        operator.apply(self._state, forces)
+        self._locate(positions)  # refuses a wheel beyond the track before anything has changed
+        parts = max(1, math.ceil(step_size / LONGEST_STEP - 1e-9))
+        before = self._state.flat.copy() if parts > 1 else None
+        start, start_force = self._state.position.copy(), self._state.force.copy()
+        try:
+            for part in range(1, parts + 1):
+                share = part / parts if linear and part < parts else 1.0
+                self._advance(
+                    step_size / parts,
+                    positions if share == 1.0 else start + share * (positions - start),
+                    forces if share == 1.0 else start_force + share * (forces - start_force),
+                    linear=linear,
+                )
+        except RuntimeError:
+            if before is not None:
+                self._state.flat[:] = before
+            raise
         self._observation = None
 
     def observe(self) -> Observation:
@@ -187,6 +192,24 @@ class TrackModel:
                 self.track, self._state, wheels=wheels, gauges=self._gauges
             )
         return self._observation
+
+    def _advance(
+        self, step_size: float, positions: FloatArray, forces: FloatArray, *, linear: bool
+    ) -> None:
+        """Advance by one undivided step; a step repeated with other forces costs little."""
+        operator = self._operator
+        if operator is None or not operator.serves(self._state, step_size, positions, linear):
+            operator = self._operator = StepOperator(
+                self._state,
+                self.track,
+                self._components.active(self._nearest(positions)),
+                self._exponential(step_size),
+                step_size=step_size,
+                positions=positions,
+                wheels=self._locate(positions),
+                linear=linear,
+            )
+        operator.apply(self._state, forces)
 
     def _check_forces(self, forces: FloatArray) -> None:
         for number, force in enumerate(forces, start=1):

@@ -2,16 +2,17 @@
 
 The key is a hash of everything the basis depends on: the parameters, the number of mode pairs, the
 source of the modules that compute it and the versions of numpy and scipy. A changed track or a
-changed program therefore never meets an old basis. A damaged file is computed again.
+changed program therefore never meets an old basis. A file begins with the hash of its content; a
+damaged one is computed again.
 """
 
 from __future__ import annotations
 
 import hashlib
+import io
 import os
 import sys
 import tempfile
-import zipfile
 from dataclasses import asdict
 from pathlib import Path
 
@@ -24,6 +25,7 @@ from track_fmu.modal import ModalBasis, compute_basis
 from track_fmu.parameters import TrackParameters
 
 CACHE_VARIABLE = "RAILCOSIM_CACHE"
+DIGEST_SIZE = 32  # bytes of a SHA-256 before the content
 # read while the modules are being loaded: the folder of an FMU may be gone later
 PROGRAM = b"".join(
     Path(str(module.__file__)).read_bytes()
@@ -66,7 +68,7 @@ def cached_basis(
     mode_pairs : int
         Retained pairs.
     """
-    path = cache_directory() / "modal" / f"{basis_key(parameters, mode_pairs)}.npz"
+    path = cache_directory() / "modal" / f"{basis_key(parameters, mode_pairs)}.basis"
     basis = _load(path, size=matrices.numbering.size)
     if basis is None:
         basis = compute_basis(matrices, mode_pairs=mode_pairs)
@@ -75,27 +77,33 @@ def cached_basis(
 
 
 def _load(path: Path, *, size: int) -> ModalBasis | None:
-    """Read a basis; None if there is none or it is damaged (zip members carry a checksum)."""
+    """Read a basis; None if there is none, or if the file is not what was written."""
     try:
-        with np.load(path, allow_pickle=False) as arrays:
-            eigenvalues, modes = arrays["eigenvalues"], arrays["modes"]
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+        data = path.read_bytes()
+    except OSError:
         return None
-    if modes.shape != (size, len(eigenvalues)):
+    digest, content = data[:DIGEST_SIZE], data[DIGEST_SIZE:]
+    if hashlib.sha256(content).digest() != digest:
         return None
-    return ModalBasis(eigenvalues=eigenvalues, modes=modes)
+    with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
+        basis = ModalBasis(eigenvalues=arrays["eigenvalues"], modes=arrays["modes"])
+    return basis if basis.modes.shape == (size, len(basis.eigenvalues)) else None
 
 
 def _store(path: Path, basis: ModalBasis) -> None:
     """Write a basis in one move; a cache that cannot be written is only a slower start."""
+    content = io.BytesIO()
+    np.savez(content, eigenvalues=basis.eigenvalues, modes=basis.modes)
+    data = content.getvalue()
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".tmp", delete=False) as file:
-            try:
-                np.savez(file, eigenvalues=basis.eigenvalues, modes=basis.modes)
-            except BaseException:
-                Path(file.name).unlink()
-                raise
-        Path(file.name).replace(path)
+        handle, name = tempfile.mkstemp(dir=path.parent, suffix=".tmp")
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(hashlib.sha256(data).digest() + data)
+            Path(name).replace(path)
+        except BaseException:
+            Path(name).unlink(missing_ok=True)
+            raise
     except OSError:
         return

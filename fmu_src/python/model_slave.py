@@ -6,11 +6,12 @@ model. A step that the model refuses is discarded: the reason is logged, the sta
 
 from __future__ import annotations
 
+import ctypes
 import math
 from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from enum import IntEnum
-from functools import partial
+from functools import partial, wraps
 from typing import Any, ClassVar, Protocol
 from xml.etree.ElementTree import Element
 
@@ -72,6 +73,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         self._phase = Phase.INSTANTIATED
         self._time = 0.0
         self._model: Any = None
+        self._made_from: tuple[Value, ...] | None = None
         self._started = False
         self._parameters = {v.name: v.start for v in self._declared if v.causality == "parameter"}
         inputs = [v for v in self._declared if v.causality == "input"]
@@ -131,19 +133,28 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
 
     def enter_initialization_mode(self) -> None:
         """Fix the parameters and make the model."""
+        if self._phase != Phase.INSTANTIATED:
+            raise self._logged(ValueError("the initialisation has begun already; reset first"))
+        if not math.isfinite(self._time):
+            raise self._logged(ValueError(f"the start time is {self._time!r} s, not a number"))
         self._make_model()
         self._phase = Phase.INITIALISING
 
     def exit_initialization_mode(self) -> None:
         """Fix the initial state."""
+        if self._phase != Phase.INITIALISING:
+            raise self._logged(ValueError("the initialisation ends after it has begun"))
         self._ensure_started()
         self._phase = Phase.STEPPING
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         """Advance by one step; False (a discarded step) with a logged reason if impossible."""
+        if self._phase != Phase.STEPPING:
+            self.log("a step comes after the initialisation", Fmi2Status.discard)
+            return False
         if not math.isclose(current_time, self._time, rel_tol=TIME_TOLERANCE, abs_tol=1e-12):
             self.log(
-                f"{self.instance_name}: a step from {current_time!r} s does not continue from "
+                f"a step from {current_time!r} s does not continue from "
                 f"{self._time!r} s; restore the state of that time first",
                 Fmi2Status.discard,
             )
@@ -153,7 +164,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
             self.step_model(self._model, self._time, step_size, self._groups, linear=self._linear)
         except (ValueError, RuntimeError, ArithmeticError) as error:
             self._model.state = before
-            self.log(f"{self.instance_name}: {error}", Fmi2Status.discard)
+            self.log(str(error), Fmi2Status.discard)
             return False
         self._time = current_time + step_size
         self._outputs.clear()
@@ -165,7 +176,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         try:
             return [getters[reference]() for reference in vrs]
         except KeyError as error:
-            raise TypeError(f"{self.instance_name}: no Real has value reference {error}") from None
+            raise self._logged(TypeError(f"no Real has value reference {error}")) from None
 
     def to_xml(self, model_options: Mapping[str, str] | None = None) -> Element:
         """Complete model description."""
@@ -184,14 +195,10 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
 
     def _set_fmu_state(self, state: SlaveState) -> None:
         if state.identity != self._identity:
-            raise ValueError(
-                f"{self.instance_name}: the state was saved by {state.identity}, "
-                f"this is {self._identity}; use states of the same build only"
-            )
-        if state.parameters != tuple(self._parameters.values()):
-            self._parameters = dict(zip(self._parameters, state.parameters, strict=True))
-            self._model = None
-        if state.phase != Phase.INSTANTIATED and self._model is None:
+            message = f"the state was saved by {state.identity}, this is {self._identity}"
+            raise self._logged(ValueError(f"{message}; use states of the same build only"))
+        self._parameters = dict(zip(self._parameters, state.parameters, strict=True))
+        if state.phase != Phase.INSTANTIATED and self._made_from != state.parameters:
             self._make_model()
         self._phase, self._time = Phase(state.phase), state.time
         self._inputs[:] = state.inputs
@@ -244,10 +251,8 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
 
     def _set_parameter(self, name: str, value: Value) -> None:
         if self._phase != Phase.INSTANTIATED:
-            raise ValueError(
-                f"{self.instance_name}: {name} is fixed once initialisation has begun; set it "
-                "before"
-            )
+            message = f"{name} is fixed once initialisation has begun; set it before"
+            raise self._logged(ValueError(message))
         self._parameters[name] = value
 
     def _set_input(self, place: int, value: float) -> None:
@@ -260,6 +265,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         self._linear = bool(self._parameters[LINEAR_INPUTS.name])
         try:
             self._model = self.make_model(self._parameters)
+            self._made_from = tuple(self._parameters.values())
         except (ValueError, RuntimeError) as error:
             raise self._logged(error) from error
 
@@ -273,6 +279,38 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
 
     def _logged(self, error: Exception) -> ValueError:
         """Log why the slave cannot be initialised, and the error to raise."""
-        message = f"{self.instance_name}: {error}"
-        self.log(message, Fmi2Status.error)
-        return ValueError(message)
+        self.log(str(error), Fmi2Status.error)
+        return ValueError(str(error))
+
+
+def _keep_alive(method: Callable[..., Any]) -> Callable[..., Any]:
+    """Keep the slave alive when a method raises.
+
+    For every exception pythonfmu 0.7 gives back the references to class, instance and log, and
+    once more when the instance is freed; without another set of references that is a crash.
+    """
+
+    @wraps(method)
+    def guarded(self: ModelSlave, *arguments: Any) -> Any:  # noqa: ANN401 - whatever it takes
+        try:
+            return method(self, *arguments)
+        except Exception:
+            for owned in (type(self), self, self.log_queue):
+                ctypes.pythonapi.Py_IncRef(ctypes.py_object(owned))
+            raise
+
+    return guarded
+
+
+for _name in (
+    "setup_experiment",
+    "enter_initialization_mode",
+    "exit_initialization_mode",
+    "do_step",
+    "terminate",
+    *(f"{access}_{kind}" for access in ("get", "set") for kind in
+      ("real", "integer", "boolean", "string")),
+    "_get_fmu_state",
+    "_set_fmu_state",
+):  # fmt: skip
+    setattr(ModelSlave, _name, _keep_alive(getattr(ModelSlave, _name)))

@@ -74,11 +74,11 @@ def from_bytes(data: bytes) -> SlaveState:
     ValueError
         If the bytes are not such a state, are of another format version or damaged.
     """
-    if data[:4] != MAGIC:
+    if data[:4] != MAGIC or len(data) < 10:
         raise ValueError("these bytes are not a serialised state of a railcosim FMU")
     if (version := struct.unpack_from("<H", data, 4)[0]) != VERSION:
         raise ValueError(f"the serialised state has format {version}; this FMU reads {VERSION}")
-    if len(data) < 10 or zlib.crc32(data[:-4]) != struct.unpack("<I", data[-4:])[0]:
+    if zlib.crc32(data[:-4]) != struct.unpack("<I", data[-4:])[0]:
         raise ValueError("the serialised state is truncated or altered (checksum)")
     reader = _Reader(data, 6)
     identity = reader.text()

@@ -79,7 +79,7 @@ def _parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
         Variable(
             name="mode_pairs",
             causality="parameter",
-            start=min(150, 2 * (structure.elements - 1) + structure.supports),
+            start=min(3 * structure.bays, 2 * (structure.elements - 1) + structure.supports),
             description="Number of retained pairs of complex modes",
         ),
         Variable(

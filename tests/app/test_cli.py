@@ -1,4 +1,6 @@
 import json
+import subprocess
+import sys
 
 import pytest
 import xarray as xr
@@ -103,7 +105,7 @@ def test_a_scenario_file_is_read_and_the_files_are_written(call, runs, tmp_path)
         (["--set", "flat.length=100"], "the length of the track"),
         (["--set", "run.approach=20"], "the track begins at 0 m"),
         (["--set", "run.departure=20"], "the track ends at 32.5 m"),
-        (["--set", "vehicle.speed_kmh=0"], "above 0 km/h"),
+        (["--set", "vehicle.speed_kmh=0"], "at least 0.1 km/h"),
         (["missing.toml"], "No such file"),
         (["--output", "passage.txt"], "--output passage.txt"),
         (["--output", "missing/passage.nc"], "does not exist"),
@@ -173,3 +175,27 @@ def test_build_says_where_it_cannot_write(call, tmp_path):
     assert result.exit_code == 1
     assert str(blocked) in result.stderr.splitlines()[-1]
     assert "Traceback" not in result.output
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["run", "--fmus", "native"], "'native' is not"),
+        (["run", "a.toml", "b.toml"], "b.toml"),
+        (["--nosuch"], "--nosuch"),
+        (["run", "--set", "master.algorithm=jacobi"], "takes steps of one size only"),
+        (["run", "--set", "flat.shape=~no-such-user/x.csv"], "no usable path"),
+        (["run", "--set", "track.bays=0x" + "f" * 5000], "too long to show"),
+        (["run", "--set", "vehicle.speed_kmh=" + "[" * 3000], "must be a number in km/h"),
+        (["run", "--set", "track.bays=1000"], "at most 10000 can be solved"),
+        (["run", "--output", "x" * 253 + ".nc"], "no usable name"),
+        (["run", "--set", "master.min_step=1"], "master.min_step is 1 s"),
+    ],
+)
+def test_wrong_command_lines_end_with_2_and_one_line(arguments, message):
+    command = [sys.executable, "-m", "railcosim", *arguments]
+    answer = subprocess.run(command, check=False, capture_output=True, text=True)
+    assert answer.returncode == 2
+    assert message in answer.stderr
+    assert answer.stderr.count("\n") == 1
+    assert answer.stdout == ""

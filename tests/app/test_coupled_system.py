@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 from orchestrator import MasterSettings
@@ -10,11 +11,12 @@ from railcosim.coupled_system import (
 )
 from railcosim.dataset import count
 from railcosim.master_section import Master
-from railcosim.motion import speed_law
+from railcosim.motion import speed_law, travel_time
 from railcosim.passage import build_for
 from railcosim.scenario import Scenario
 from railcosim.sections import Flat, Run, Track, Vehicle
 from railcosim.signals import SIGNALS
+from vehicle_fmu.speed import SpeedTable
 
 UNITS = {"m": "m", "N": "N", "m s-1": "m/s", "N m": "N.m", "1": None}
 """Units of the CF conventions and their spelling in FMI."""
@@ -94,3 +96,10 @@ def test_error_control_is_the_default_and_a_fixed_step_replaces_it():
     settings = master_settings(Scenario(master=Master(step=1e-4)))
     assert (settings.tolerance, settings.max_step, settings.fixed_step) == (None, None, 1e-4)
     assert settings.min_step < settings.fixed_step
+
+
+@pytest.mark.parametrize("speed", [1.0, 11.1111, 27.77, 83.3])
+@pytest.mark.parametrize("start", [0.0, 1.0])
+def test_a_table_of_one_speed_takes_the_time_of_that_speed(speed, start):
+    table = SpeedTable(time=np.array([start, start + 0.1]), speed=np.array([speed, speed]))
+    assert travel_time(table, 6.5) == pytest.approx(6.5 / speed, rel=1e-9)

@@ -9,8 +9,8 @@ from railcosim.sections import Flat, Run, Track, Vehicle
 @pytest.mark.parametrize(
     ("section", "values", "parts"),
     [
-        (Vehicle, {"speed_kmh": 0.0}, ["vehicle.speed_kmh is 0 km/h", "above 0 km/h"]),
-        (Vehicle, {"speed_kmh": -3}, ["-3 km/h", "above 0 km/h"]),
+        (Vehicle, {"speed_kmh": 0.0}, ["vehicle.speed_kmh is 0 km/h", "at least 0.1 km/h"]),
+        (Vehicle, {"speed_kmh": -3}, ["-3 km/h", "at least 0.1 km/h"]),
         (Vehicle, {"speed_kmh": math.nan}, ["nan", "finite"]),
         (Vehicle, {"speed_kmh": math.inf}, ["inf", "finite"]),
         (Vehicle, {"speed_kmh": "fast"}, ["'fast'", "a number in km/h"]),

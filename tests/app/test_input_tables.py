@@ -96,8 +96,10 @@ def test_a_flat_longer_than_the_circumference_is_refused():
 
 
 def test_a_flat_deeper_than_the_wheel_is_refused():
-    with pytest.raises(InputError, match=r"0\.5 m deep.*radius 0\.45 m"):
-        check_profiles(Scenario(flat=Flat(depth=0.5)))
+    with pytest.raises(InputError, match=r"0\.02 m deep.*radius 0\.018 m"):
+        check_profiles(
+            Scenario(flat=Flat(depth=0.02, length=0.05), vehicle=Vehicle(wheel_radius=0.018))
+        )
 
 
 def test_a_run_starts_on_the_round_wheel(table):

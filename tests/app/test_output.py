@@ -108,7 +108,7 @@ def test_a_folder_that_takes_no_files_is_refused(tmp_path, monkeypatch):
     def refuse(**_):
         raise PermissionError(errno.EACCES, "Permission denied")
 
-    monkeypatch.setattr("railcosim.output.tempfile.TemporaryFile", refuse)
+    monkeypatch.setattr("railcosim.output.tempfile.TemporaryDirectory", refuse)
     with pytest.raises(InputError, match="is not writable: choose another place"):
         check(tmp_path / "passage.nc")
 

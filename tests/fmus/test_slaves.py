@@ -281,6 +281,59 @@ def test_wrong_parameters_end_the_initialisation_with_a_sentence(
     assert any(sentence in message for message in slave.messages), slave.messages
 
 
+def test_a_state_brings_the_model_of_its_own_parameters(open_fmu, small_fmus):
+    """Going back to before the initialisation and on with another instance's state."""
+    first, second = (
+        small_track(open_fmu, small_fmus, initialise=False, pad_stiffness=stiffness)
+        for stiffness in (80e6, 40e6)
+    )
+    before = first.fmu.getFMUstate()
+    first.initialise()
+    second.initialise()
+    first.fmu.setFMUstate(before)
+    first.set("pad_stiffness", 40e6)
+    state = second.fmu.getFMUstate()
+    data = second.fmu.serializeFMUstate(state)
+    first.fmu.setFMUstate(first.fmu.deSerializeFMUstate(data))
+    drive_track(first, 0, 10)
+    drive_track(second, 0, 10)
+    assert first.outputs() == second.outputs()
+
+
+@pytest.mark.parametrize("calls", [["enter", "enter"], ["exit"], ["enter", "exit", "exit"]])
+def test_wrong_orders_of_the_initialisation_are_refused(open_fmu, small_fmus, calls):
+    slave = open_fmu(small_fmus.vehicle, initialise=False)
+    functions = {
+        "enter": slave.fmu.enterInitializationMode,
+        "exit": slave.fmu.exitInitializationMode,
+    }
+    for name in calls[:-1]:
+        functions[name]()
+    with pytest.raises(FMICallException, match="fatal"):
+        functions[calls[-1]]()
+    assert "initialisation" in slave.messages[0]
+
+
+def test_a_step_before_the_initialisation_is_discarded(open_fmu, small_fmus):
+    slave = open_fmu(small_fmus.vehicle, initialise=False)
+    with pytest.raises(FMICallException, match="discard"):
+        slave.fmu.doStep(0.0, STEP)
+    assert "after the initialisation" in slave.messages[-1]
+
+
+def test_fatal_answers_do_not_end_the_process(open_fmu, small_fmus):
+    """pythonfmu alone crashes at about the fifth exception, or when the instance is freed."""
+    slave = open_small("vehicle", open_fmu, small_fmus)
+    for _ in range(20):
+        with pytest.raises(FMICallException, match="fatal"):
+            slave.fmu.getReal([99_999])
+        with pytest.raises(FMICallException, match="fatal"):
+            slave.set("wheel_mass", 600.0)
+    assert any("wheel_mass is fixed" in message for message in slave.messages)
+    drive_vehicle(slave, 0, 2)
+    assert slave.get("wheel[1].contact_force") > 0.0
+
+
 def test_two_builds_live_in_one_process(open_fmu, small_fmus, tmp_path):
     """A changed source goes under another package name; both keep their own code."""
     structure = Structure(bays=12, elements_per_bay=4, wheels=1, gauges=1).of("vehicle")

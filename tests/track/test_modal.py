@@ -99,6 +99,37 @@ def test_a_defective_pair_is_refused_and_not_returned():
         solve_damped(one, 2.0 * one, one, one, mode_pairs=1)
 
 
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"pad_stiffness": 1.6e9},
+        {"pad_stiffness": 8e9},
+        {  # a case with two modes whose eigenvalues agree to 2e-14
+            "bays": 40,
+            "pad_stiffness": 1.087e9,
+            "pad_damping": 11012.8,
+            "ballast_stiffness": 191.4e6,
+            "ballast_damping": 11545.0,
+            "sleeper_mass": 75.7,
+        },
+        {"pad_damping": 0.0, "ballast_damping": 0.0},
+        {"ballast_damping": 1e9},
+    ],
+)
+def test_stiff_undamped_and_crowded_tracks_have_all_their_modes(values):
+    matrices = assemble(TrackParameters(**values))
+    basis = compute_basis(matrices, mode_pairs=100)
+    expected = dense_eigenvalues(matrices)[: len(basis.eigenvalues)]
+    ours, theirs = (np.sort(np.abs(v)) for v in (basis.eigenvalues, expected))
+    assert ours == pytest.approx(theirs, rel=1e-7)  # the dense solution loses digits here
+    terms = [
+        np.asarray(matrix @ basis.modes) * basis.eigenvalues**power
+        for matrix, power in ((matrices.stiffness, 0), (matrices.damping, 1), (matrices.mass, 2))
+    ]
+    residual = np.abs(sum(terms)).max(axis=0) / np.abs(terms[0]).max(axis=0)
+    assert residual.max() < 1e-6
+
+
 def test_200_pairs_of_the_table_1_track_take_less_than_a_second_and_a_half(table1):
     durations = []
     for _ in range(3):  # the fastest of three: the machine may be busy

@@ -1,0 +1,33 @@
+"""What a user should know about a scenario that is allowed but may surprise."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .master_section import DEFAULT_MAX_STEP
+from .sections import Flat
+
+if TYPE_CHECKING:
+    from .scenario import Scenario
+
+
+def notes(scenario: Scenario) -> list[str]:
+    """Say in a sentence each what has no effect and what costs accuracy."""
+    found = []
+    flat, master = scenario.flat, scenario.master
+    depth_is_given = flat.depth != Flat().depth
+    if depth_is_given and flat.shape == "chord":
+        depth = flat.length**2 / (8.0 * scenario.vehicle.wheel_radius)
+        found.append(
+            f"flat.depth has no effect: a chord of {1e3 * flat.length:g} mm is "
+            f"{1e3 * depth:.3g} mm deep"
+        )
+    if depth_is_given and flat.is_measured:
+        found.append(f"flat.depth has no effect: {flat.shape} brings the depth")
+    step = master.step or master.largest_step
+    if step > DEFAULT_MAX_STEP:
+        found.append(
+            f"steps up to {step:g} s do not resolve the vibration of the rail: expect errors above "
+            f"1 % unless they are at most {DEFAULT_MAX_STEP:g} s"
+        )
+    return found

@@ -1,0 +1,20 @@
+import pytest
+
+from railcosim.notes import notes
+from railcosim.scenario_file import read_scenario
+
+
+@pytest.mark.parametrize(
+    ("overrides", "parts"),
+    [
+        ((), []),
+        (("flat.shape=chord",), []),
+        (("flat.shape=chord", "flat.depth=1e-3"), ["a chord of 100 mm is 2.78 mm deep"]),
+        (("master.step=1e-3",), ["steps up to 0.001 s do not resolve"]),
+        (("master.max_step=1e-4",), []),
+    ],
+)
+def test_what_may_surprise_is_said(overrides, parts):
+    said = notes(read_scenario(None, overrides))
+    assert len(said) == len(parts)
+    assert all(part in sentence for part, sentence in zip(parts, said, strict=True))
