@@ -6,6 +6,7 @@ import hashlib
 import os
 import tempfile
 import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -20,6 +21,18 @@ def content_hash(files: Mapping[str, bytes]) -> str:
         digest.update(f"{name}\0{len(files[name])}\0".encode())
         digest.update(files[name])
     return digest.hexdigest()[:32]
+
+
+def holds(path: Path, files: Mapping[str, bytes]) -> bool:
+    """Tell whether a sound archive of exactly these files is there."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            names = archive.namelist()
+            return sorted(names) == sorted(files) and all(
+                archive.read(name) == data for name, data in files.items()
+            )
+    except (OSError, zipfile.BadZipFile, zlib.error):
+        return False
 
 
 def write_archive(path: Path, files: Mapping[str, bytes]) -> None:

@@ -71,12 +71,12 @@ def check_writable(path: Path, *, option: str, suffixes: tuple[str, ...]) -> Non
 
 
 def write_dataset(passage: xr.Dataset, path: Path) -> None:
-    """Write a passage in one piece: everything as NetCDF-4, or its time series as CSV or Parquet.
+    """Write a result in one piece: everything as NetCDF-4, or its time series as CSV or Parquet.
 
     Parameters
     ----------
     passage : xarray.Dataset
-        Result of a passage.
+        Result of a passage or of another co-simulation.
     path : Path
         File that ends with .nc, .csv or .parquet.
 
