@@ -122,7 +122,11 @@ def _replacing(path: Path) -> Iterator[Path]:
 
 
 def _write_netcdf(passage: xr.Dataset, path: Path) -> None:
-    passage.to_netcdf(path, engine="h5netcdf")
+    # HDF5 takes a slash for a group; names of FMU variables may have one.
+    slashed = [str(name) for name in passage.data_vars if "/" in str(name)]
+    passage.rename({name: name.replace("/", "|") for name in slashed}).to_netcdf(
+        path, engine="h5netcdf"
+    )
 
 
 def _write_csv(passage: xr.Dataset, path: Path) -> None:

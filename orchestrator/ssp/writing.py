@@ -17,7 +17,7 @@ from .description import (
     SystemDescription,
 )
 from .documents import namespaces
-from .master_annotation import annotation_type
+from .master_annotation import annotation_type, setting_names
 
 
 def write_description(description: SystemDescription) -> bytes:
@@ -141,7 +141,9 @@ def _add_transformation(element: Any, change: Linear) -> None:  # noqa: ANN401 -
 def _add_master(root: Any, master: MasterChoices) -> None:  # noqa: ANN401 - lxml carries no types
     annotations = _add(root, "ssd:Annotations")
     annotation = _add(annotations, "ssc:Annotation", type=annotation_type)
-    settings = {name: _text(value) for name, value in master.settings.items()}
+    settings = {
+        name: _text(master.settings[name]) for name in setting_names if name in master.settings
+    }
     element = _add(annotation, "master:Master", **settings)
     for indicator in master.events:
         _add(element, "master:Event", indicator=indicator)
