@@ -8,7 +8,7 @@ import pytest
 import ssd_text as t
 from lxml import etree
 
-from orchestrator import Linear, SystemFileError, Unit, WiringError
+from orchestrator import Linear, MasterSettings, SystemFileError, Unit, WiringError
 from orchestrator.ssp import (
     Component,
     Connector,
@@ -325,3 +325,17 @@ def test_only_the_default_variant_of_an_archive_is_read(relay, tmp_path, histori
         archive.writestr("Other.ssd", "not even XML")
     values = histories(path)
     assert values["b.seen"].tobytes() == values["a.y"].tobytes()
+
+
+def test_the_example_of_the_documentation_is_understood(tmp_path):
+    text = (Path(__file__).parents[2] / "docs" / "cosim.md").read_text(encoding="utf-8")
+    example = text.partition("```xml\n")[2].partition("```")[0]
+    for name in ("Ball.fmu", "Spring.fmu"):
+        (tmp_path / name).touch()
+    path = tmp_path / "example.ssd"
+    path.write_text(example, encoding="utf-8")
+    description = read(path)
+    assert description.links[1].transformation == Linear(-1.0, 0.0)
+    assert description.master.settings["max_step"] == 1e-2
+    assert description.master.events == ("ball.displacement",)
+    MasterSettings(**description.master.settings)
