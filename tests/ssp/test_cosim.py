@@ -144,3 +144,15 @@ def test_a_run_that_fails_ends_with_1_and_names_the_fmu(put, call, tmp_path):
     assert (result.exit_code, result.stdout) == (1, "")
     assert one_sentence(result).startswith("railcosim: a: ")
     assert not (tmp_path / "r.nc").exists()
+
+
+def test_a_run_that_ends_early_ends_with_1_and_a_valid_result(put, call, tmp_path):
+    path = tmp_path / "r.nc"
+    system = put(a_system('fixed_step="0.25" max_attempts="2"'))
+    result = call(system, "--json", "--output", path)
+    assert result.exit_code == 1
+    assert "the largest number of attempts was reached" in one_sentence(result)
+    assert json.loads(result.stdout)["end_time"] == 1.0
+    with xr.open_dataset(path, engine="h5netcdf") as stored:
+        assert stored.attrs["complete"] == 0
+        assert stored["time"].to_numpy().tolist() == [0.5, 0.75, 1.0]
