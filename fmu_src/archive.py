@@ -22,6 +22,18 @@ def content_hash(files: Mapping[str, bytes]) -> str:
     return digest.hexdigest()[:32]
 
 
+def holds(path: Path, files: Mapping[str, bytes]) -> bool:
+    """Tell whether a sound archive of exactly these files is there."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            names = archive.namelist()
+            return sorted(names) == sorted(files) and all(
+                archive.read(name) == data for name, data in files.items()
+            )
+    except Exception:  # noqa: BLE001 - whatever a damaged archive makes zipfile raise
+        return False
+
+
 def write_archive(path: Path, files: Mapping[str, bytes]) -> None:
     """Write files, sorted by name and compressed, in one move: never a half-written archive.
 

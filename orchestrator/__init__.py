@@ -12,6 +12,7 @@ from .errors import (
     RunError,
     SettingsError,
     StepTooSmallError,
+    SystemFileError,
     WiringError,
     ZenoError,
 )
@@ -27,6 +28,7 @@ from .settings import MasterSettings
 from .step_control import ErrorControl, FixedStep, StepController
 from .step_log import StepLog
 from .system import Connection, System
+from .units import Linear, Unit, convert
 
 __all__ = [
     "OK",
@@ -48,6 +50,7 @@ __all__ = [
     "InputError",
     "InputShape",
     "Landed",
+    "Linear",
     "Master",
     "MasterSettings",
     "Newton",
@@ -71,8 +74,11 @@ __all__ = [
     "StopReason",
     "Switch",
     "System",
+    "SystemFileError",
+    "Unit",
     "Variable",
     "Vector",
     "WiringError",
     "ZenoError",
+    "convert",
 ]

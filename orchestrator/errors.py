@@ -24,6 +24,10 @@ class FmuError(InputError):
     """A file is no usable FMI 2.0 co-simulation FMU, or a start value does not fit it."""
 
 
+class SystemFileError(InputError):
+    """A system description, or a file that belongs to it, cannot be used."""
+
+
 class WiringError(InputError):
     """Participants, connections, indicators or recorded names do not fit together."""
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +10,7 @@ from .errors import WiringError
 from .participant import InputShape, Variable, Vector
 from .stage import Stage
 from .system import System
+from .units import Linear, identity
 
 Indices = NDArray[np.intp]
 
@@ -55,7 +55,8 @@ class Exchange:
     stages : tuple of Stage
         One per participant, in the order of the system.
     inputs, outputs, observed : numpy.ndarray
-        The flat arrays; every stage holds views of them.
+        The flat arrays; every stage holds views of them. Inputs are in the units of their sources:
+        a stage converts them on their way into the participant.
     wires : tuple of Wire
         One per connection.
     value_names : tuple of str
@@ -63,7 +64,8 @@ class Exchange:
     value_places : numpy.ndarray of int, shape (n_values,)
         Their places in `outputs`.
     nominal, lower, upper : numpy.ndarray, shape (n_values,)
-        Smallest nominal value and tightest bounds that output or inputs declare.
+        Smallest nominal value and tightest bounds that output or inputs declare, in the unit of
+        the output.
     continuous : numpy.ndarray of bool, shape (n_values,)
         Whether the value is continuous in time.
     indicator_places : numpy.ndarray of int
@@ -94,6 +96,7 @@ class Exchange:
         self.observed_variables: Mapping[str, Variable] = {
             path: system.find(path)[1] for group in observed_paths for path in group
         }
+        conversions = {item.target: item.conversion or identity for item in system.connections}
         stages = []
         for place, participant in enumerate(system.participants):
             names = [
@@ -112,6 +115,7 @@ class Exchange:
                     input_names=names[0],
                     output_names=names[1],
                     observed_names=names[2],
+                    conversions=[conversions[path] for path in input_paths[place]],
                 )
             )
         self.stages = tuple(stages)
@@ -136,19 +140,19 @@ class Exchange:
             )
             for item in system.connections
         )
-        sharing = [[system.find(path)[1]] for path in sources]
+        ends = [[(system.find(path)[1], identity)] for path in sources]
         for item in system.connections:
-            sharing[value_places[item.source]].append(system.find(item.target)[1])
+            end = system.find(item.target)[1], item.conversion or identity
+            ends[value_places[item.source]].append(end)
+        nominal = [[_nominal(*end) for end in sharing] for sharing in ends]
+        bounds = [[_bounds(*end) for end in sharing] for sharing in ends]
         self.nominal: Vector = np.array(
-            [
-                min((v.nominal for v in ends if v.nominal is not None), default=1.0)
-                for ends in sharing
-            ]
+            [min((size for size in sizes if size is not None), default=1.0) for sizes in nominal]
         )
-        self.lower: Vector = np.array([max((v.minimum for v in e), default=-inf) for e in sharing])
-        self.upper: Vector = np.array([min((v.maximum for v in e), default=inf) for e in sharing])
+        self.lower: Vector = np.array([max(low for low, _ in pairs) for pairs in bounds])
+        self.upper: Vector = np.array([min(high for _, high in pairs) for pairs in bounds])
         self.continuous: NDArray[np.bool_] = np.array(
-            [ends[0].variability == "continuous" for ends in sharing], dtype=np.bool_
+            [sharing[0][0].variability == "continuous" for sharing in ends], dtype=np.bool_
         )
         for name, low, high in zip(sources, self.lower, self.upper, strict=True):
             if low > high:
@@ -159,7 +163,19 @@ class Exchange:
 
     def list_inputs(self) -> dict[str, float]:
         """Return the present inputs of all participants by ``participant.variable``."""
-        return dict(zip(self.input_names, self.inputs.tolist(), strict=True))
+        values = [value for stage in self.stages for value in stage.converted_inputs().tolist()]
+        return dict(zip(self.input_names, values, strict=True))
+
+
+def _nominal(variable: Variable, conversion: Linear) -> float | None:
+    """Return the nominal value in the unit of the source."""
+    return None if variable.nominal is None else variable.nominal / abs(conversion.factor)
+
+
+def _bounds(variable: Variable, conversion: Linear) -> tuple[float, float]:
+    """Return smallest and largest value in the unit of the source."""
+    low, high = (conversion.invert(bound) for bound in (variable.minimum, variable.maximum))
+    return (low, high) if conversion.factor > 0.0 else (high, low)
 
 
 def _by_participant(system: System, paths: Sequence[str]) -> list[list[str]]:

@@ -13,6 +13,7 @@ from .fmu_instance import FmuInstance
 from .fmu_log import FmuLog
 from .fmu_values import Reader, Writer, write_start_values
 from .participant import OK, InputShape, Status, StatusKind, Variable, Vector
+from .units import Unit
 
 logger = logging.getLogger(__name__)
 
@@ -62,6 +63,16 @@ class FmuParticipant:
     def variables(self) -> Mapping[str, Variable]:
         """Every variable by name."""
         return self._description.variables
+
+    @property
+    def units(self) -> Mapping[str, Unit]:
+        """Every unit that it defines in SI base units, by name."""
+        return self._description.units
+
+    @property
+    def settable(self) -> frozenset[str]:
+        """Names of the variables that take a start value."""
+        return self._description.settable
 
     @property
     def can_save_state(self) -> bool:

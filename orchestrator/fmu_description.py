@@ -12,8 +12,10 @@ from typing import Any
 import fmpy
 from fmpy.model_description import ValidationError, read_model_description
 
+from .archives import find_danger
 from .errors import FmuError, close_matches
 from .participant import Variable
+from .units import Unit, base_units
 
 StartValue = float | int | bool | str
 
@@ -36,6 +38,8 @@ class FmuDescription:
         Value reference of every variable.
     settable : frozenset of str
         Names that take a start value.
+    units : mapping of str to Unit
+        Units that the model description defines in SI base units, by name.
     """
 
     path: Path
@@ -48,6 +52,7 @@ class FmuDescription:
     variables: Mapping[str, Variable]
     references: Mapping[str, int]
     settable: frozenset[str]
+    units: Mapping[str, Unit]
 
     def check_start_values(self, values: Mapping[str, StartValue]) -> None:
         """Raise `FmuError` unless every value is known, settable and of the right type."""
@@ -121,6 +126,9 @@ def read_fmu(path: Path) -> FmuDescription:
         variables={item.name: _variable(item) for item in model.modelVariables},
         references={item.name: int(item.valueReference) for item in model.modelVariables},
         settable=frozenset(item.name for item in model.modelVariables if _takes_start(item)),
+        units={
+            item.name: _unit(item) for item in model.unitDefinitions if item.baseUnit is not None
+        },
     )
 
 
@@ -130,6 +138,9 @@ def _read_model(path: Path) -> Any:  # noqa: ANN401 - fmpy carries no types
     with TemporaryDirectory(prefix="fmu-") as folder:
         try:
             with zipfile.ZipFile(path) as archive:
+                danger = find_danger(archive)
+                if danger is not None:
+                    raise FmuError(f"{path.name}: the archive is not unpacked: {danger}.")
                 description = archive.extract("modelDescription.xml", folder)
         except (zipfile.BadZipFile, zlib.error) as error:
             raise FmuError(
@@ -145,6 +156,10 @@ def _read_model(path: Path) -> Any:  # noqa: ANN401 - fmpy carries no types
 
 
 def _parse(file: str, description: str) -> Any:  # noqa: ANN401 - fmpy carries no types
+    if b"<!DOCTYPE" in Path(description).read_bytes():
+        raise FmuError(
+            f"{file}: a document type with its entities is refused in the model description."
+        )
     try:
         return read_model_description(description, validate=True)
     except ValidationError as error:
@@ -159,6 +174,16 @@ def _takes_start(item: Any) -> bool:  # noqa: ANN401 - fmpy carries no types
     if item.variability == "constant" or item.causality == "independent":
         return False
     return item.causality == "input" or item.initial in {"exact", "approx"}
+
+
+def _unit(item: Any) -> Unit:  # noqa: ANN401 - fmpy carries no types
+    base = item.baseUnit
+    return Unit(
+        name=item.name,
+        exponents=tuple(int(getattr(base, name)) for name in base_units),
+        factor=float(base.factor),
+        offset=float(base.offset),
+    )
 
 
 def _variable(item: Any) -> Variable:  # noqa: ANN401 - fmpy carries no types

@@ -94,7 +94,9 @@ def _check(stage: Stage, time: float, step_size: float) -> None:
     stage.read_observed(time, step_size)
     first = np.concatenate([stage.outputs, stage.observed])
     for status in (
-        participant.set_inputs(_disturbed(participant, stage.input_names, stage.inputs)),
+        participant.set_inputs(
+            _disturbed(participant, stage.input_names, stage.converted_inputs())
+        ),
         participant.step(time + step_size, step_size),
     ):
         if status.kind is StatusKind.FATAL:

@@ -124,6 +124,7 @@ class MasterSettings:
         if self.fixed_step is not None:
             return FixedStep(self.fixed_step, self.min_step)
         max_step = min(self.max_step or 0.1 * duration, duration)
-        initial_step = min(self.initial_step or 0.01 * max_step, max_step)
+        first = self.initial_step or max(0.01 * max_step, self.min_step or 0.0)
+        initial_step = min(first, max_step)
         min_step = self.min_step or min(1e-6 * max_step, initial_step)
         return ErrorControl(initial_step=initial_step, min_step=min_step, max_step=max_step)

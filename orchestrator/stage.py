@@ -7,6 +7,7 @@ import numpy as np
 from .decision import Cause, Failure
 from .errors import ParticipantError
 from .participant import OK, Participant, Status, StatusKind, Vector
+from .units import Linear, identity
 
 causes = {StatusKind.DISCARD: Cause.DISCARD, StatusKind.ERROR: Cause.INVALID}
 
@@ -24,6 +25,8 @@ class Stage:
         View of the observed values.
     input_names, output_names, observed_names : sequence of str
         Names of their variables.
+    conversions : sequence of Linear
+        How each input is made of the value in `inputs`, which is in the unit of its source.
     """
 
     def __init__(
@@ -36,6 +39,7 @@ class Stage:
         input_names: Sequence[str],
         output_names: Sequence[str],
         observed_names: Sequence[str],
+        conversions: Sequence[Linear],
     ) -> None:
         self.participant = participant
         self.inputs = inputs
@@ -47,7 +51,11 @@ class Stage:
         self._zeros = np.zeros_like(outputs)
         self._state: object = None
         self._moved = False
-        self._set_inputs = participant.set_inputs
+        # Nothing is added to the calls of a participant that takes all its inputs as they are.
+        self._converts = any(conversion != identity for conversion in conversions)
+        self._factors = np.array([conversion.factor for conversion in conversions])
+        self._offsets = np.array([conversion.offset for conversion in conversions])
+        self._set_inputs = self._set_converted if self._converts else participant.set_inputs
         self._get_outputs = participant.get_outputs
         self._step = participant.step
         self._restore = participant.restore
@@ -101,6 +109,10 @@ class Stage:
                 return None
         return self._failure(status, None, None)
 
+    def converted_inputs(self) -> Vector:
+        """Return the inputs in the units of the participant, shape (n_inputs,)."""
+        return self._factors * self.inputs + self._offsets if self._converts else self.inputs
+
     def read_outputs(self) -> None:
         """Read the outputs as they are."""
         self._require(self._get_outputs(self.outputs))
@@ -116,7 +128,7 @@ class Stage:
         self, what: str, time: float | None = None, step_size: float | None = None
     ) -> ParticipantError:
         """Return the error that says what happened, when and with which inputs."""
-        inputs = dict(zip(self.input_names, self.inputs.tolist(), strict=True))
+        inputs = dict(zip(self.input_names, self.converted_inputs().tolist(), strict=True))
         return ParticipantError(
             participant=self.participant.name,
             failure=what,
@@ -125,6 +137,9 @@ class Stage:
             inputs=inputs if step_size is not None else None,
             messages=self.participant.messages,
         )
+
+    def _set_converted(self, values: Vector) -> Status:
+        return self.participant.set_inputs(self._factors * values + self._offsets)
 
     def _require(self, status: Status) -> None:
         if status is not OK:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from .errors import WiringError, close_matches
 from .participant import Participant, Variable
+from .units import Linear
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -16,10 +17,14 @@ class Connection:
     ----------
     source, target : str
         ``participant.variable`` of the output and of the input.
+    conversion : Linear or None
+        What the input takes of the output's value, its unit included; None hands the value on as it
+        is, and the units have to be the same.
     """
 
     source: str
     target: str
+    conversion: Linear | None = None
 
 
 class System:
@@ -36,7 +41,8 @@ class System:
     ------
     WiringError
         For unknown or repeated names, an input driven twice, a connection that does not run from
-        a Real output to a Real input, or units that differ.
+        a Real output to a Real input, units that differ without a conversion, or a conversion
+        that is no use.
     """
 
     def __init__(
@@ -111,8 +117,14 @@ class System:
                 raise WiringError(
                     f"{arrow}: {path} is of type {variable.type}, but only Real can be coupled."
                 )
-        if source.unit and target.unit and source.unit != target.unit:
+        if connection.conversion is not None:
+            if not connection.conversion.is_sound:
+                raise WiringError(
+                    f"{arrow}: the factor {connection.conversion.factor} must be finite and not "
+                    f"zero, the offset {connection.conversion.offset} finite."
+                )
+        elif source.unit and target.unit and source.unit != target.unit:
             raise WiringError(
                 f"{arrow}: the units {source.unit!r} and {target.unit!r} differ; "
-                "give both sides the same."
+                "give both sides the same, or the connection a conversion."
             )

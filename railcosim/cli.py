@@ -1,4 +1,4 @@
-"""The command line: `railcosim run` and `railcosim build`."""
+"""The command line: `railcosim run`, `railcosim cosim` and `railcosim build`."""
 
 import json
 import signal
@@ -16,11 +16,15 @@ from rich.console import Console
 from build_fmus import default_directory
 
 from . import __version__
+from .cosim import run_system
+from .cosim_options import CosimOptions
+from .cosim_result import cosim_table, summarise_cosim
 from .errors import InputError, RunError
 from .figures import describe, draw_passage
 from .notes import notes
 from .output import DATA_SUFFIXES, FIGURE_SUFFIXES, check_writable, write_dataset, write_figure
 from .passage import build_for, run_passage
+from .passage_package import ensure_package
 from .progress import progress_bar
 from .scenario import Scenario
 from .scenario_file import read_scenario
@@ -37,6 +41,18 @@ app = typer.Typer(
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
+
+
+PACKAGE_NAME = "Passage.ssp"
+"""File of the paper's case as a system of FMUs."""
+
+
+class AlgorithmName(StrEnum):
+    """Coupling algorithms."""
+
+    NEWTON = "newton"
+    GAUSS_SEIDEL = "gauss_seidel"
+    JACOBI = "jacobi"
 
 
 class FmuKind(StrEnum):
@@ -119,11 +135,64 @@ def run(
             typer.echo(json.dumps(summary.as_dict(), indent=2, allow_nan=False))
         elif not quiet:
             Console().print(summary_table(summary, describe(case)))
-        if not passage.attrs["complete"]:
-            raise RunError(
-                f"the run ended at t = {summary.simulated_time:.6g} s, because "
-                f"{passage.attrs['stop_reason']}; the result reaches up to there"
-            )
+        _check_complete(passage)
+
+
+@app.command()
+def cosim(
+    system: Annotated[Path, typer.Argument(metavar="SYSTEM.ssp|.ssd", help="FMUs, connected.")],
+    *,
+    stop_time: Annotated[
+        float | None, typer.Option(metavar="S", help="End of the run; the file's without.")
+    ] = None,
+    tolerance: Annotated[
+        float | None,
+        typer.Option(
+            metavar="X", help="Error allowed in a step over the nominal values; the file's or 1e-4."
+        ),
+    ] = None,
+    algorithm: Annotated[AlgorithmName | None, typer.Option(help="How values are coupled.")] = None,
+    step: Annotated[
+        float | None, typer.Option(metavar="S", help="Fixed step, without error control.")
+    ] = None,
+    min_step: Annotated[float | None, typer.Option(metavar="S", help="Smallest step.")] = None,
+    max_step: Annotated[float | None, typer.Option(metavar="S", help="Largest step.")] = None,
+    event: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="COMPONENT.VARIABLE",
+            help="Signed output whose changes of sign are landed on; may be repeated.",
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Result: .nc, .csv or .parquet.")
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the numbers as one JSON object.")
+    ] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", help="No progress and no table.")] = False,
+) -> None:
+    """Co-simulate the FMUs of a system description; options count more than the file."""
+    with _exit_codes():
+        options = CosimOptions(
+            stop_time=stop_time,
+            tolerance=tolerance,
+            algorithm=None if algorithm is None else algorithm.value,
+            step=step,
+            min_step=min_step,
+            max_step=max_step,
+            events=tuple(event or ()),
+        )
+        if output is not None:
+            check_writable(output, option="--output", suffixes=DATA_SUFFIXES)
+        result = _followed_cosim(system, options, quiet=quiet)
+        if output is not None:
+            write_dataset(result, output)
+        if as_json:
+            typer.echo(json.dumps(summarise_cosim(result), indent=2, allow_nan=False))
+        elif not quiet:
+            Console().print(cosim_table(result))
+        _check_complete(result)
 
 
 @app.command()
@@ -132,10 +201,13 @@ def build(
         Path | None, typer.Option("--output", metavar="FOLDER", help="Where to; dist/ without.")
     ] = None,
 ) -> None:
-    """Build the FMUs of the paper's case where they are missing or stale."""
+    """Build the FMUs of the paper's case and its system where they are missing or stale."""
     with _exit_codes():
-        paths = build_for(Scenario(), directory=directory or default_directory(), notify=_say)
-        for path in (paths.track, paths.vehicle):
+        folder = directory or default_directory()
+        paths = build_for(Scenario(), directory=folder, notify=_say)
+        package = folder / PACKAGE_NAME
+        ensure_package(Scenario(), paths, package, notify=_say)
+        for path in (paths.track, paths.vehicle, package):
             typer.echo(path)
 
 
@@ -145,6 +217,23 @@ def _followed_run(case: Scenario, fmus: FmuKind, *, quiet: bool) -> xr.Dataset:
         return run_passage(case, fmus=fmus.value)
     with progress_bar(Console(stderr=True)) as report:
         return run_passage(case, fmus=fmus.value, notify=_say, report=report)
+
+
+def _followed_cosim(system: Path, options: CosimOptions, *, quiet: bool) -> xr.Dataset:
+    """Do the same for a system."""
+    if quiet:
+        return run_system(system, options)
+    with progress_bar(Console(stderr=True), system.stem) as report:
+        return run_system(system, options, notify=_say, report=report)
+
+
+def _check_complete(result: xr.Dataset) -> None:
+    """Say why a run ended early, if it did."""
+    if not result.attrs["complete"]:
+        raise RunError(
+            f"the run ended at t = {result.attrs['simulated_time']:.6g} s, because "
+            f"{result.attrs['stop_reason']}; the result reaches up to there"
+        )
 
 
 @contextmanager

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
+from .run_record import ATTEMPT_COLUMNS
 from .scenario_file import to_toml
 from .signals import COMPRESSION, FORWARDS, SIGNALS
 
@@ -17,16 +18,6 @@ if TYPE_CHECKING:
 
     from .scenario import Scenario
     from .signals import Dimension
-
-ATTEMPT_COLUMNS = {
-    "time": ("s", "start of the attempt"),
-    "step_size": ("s", "size of the attempted step"),
-    "cause": ("1", "accepted, or why the attempt was rejected"),
-    "iterations": ("1", "how often the FMUs were stepped"),
-    "error_norm": ("1", "difference of prediction and result over the tolerance"),
-    "residual_norm": ("1", "what is left of the coupling equations, over the nominal values"),
-}
-"""Columns of the step log with their units and meaning."""
 
 
 def count(scenario: Scenario) -> dict[Dimension, int]:
@@ -75,13 +66,9 @@ def assemble(
         )
         for signal in SIGNALS
     }
-    log = {
-        f"attempt_{name}": ("attempt", attempts[name], _attributes(units, meaning))
-        for name, (units, meaning) in ATTEMPT_COLUMNS.items()
-    }
     flat = series["wheel_position"][:, scenario.flat.wheel - 1]
     return xr.Dataset(
-        variables | log | _constants(scenario),
+        variables | attempt_variables(attempts) | _constants(scenario),
         coords=_coordinates(scenario, times, flat - scenario.flat_position),
         attrs={
             "Conventions": "CF-1.11",
@@ -90,6 +77,20 @@ def assemble(
             **attributes,
         },
     )
+
+
+def attempt_variables(attempts: Mapping[str, NDArray[np.generic]]) -> dict[str, object]:
+    """Label the step log.
+
+    Parameters
+    ----------
+    attempts : mapping of str to ndarray, shape (m,)
+        The columns `ATTEMPT_COLUMNS`.
+    """
+    return {
+        f"attempt_{name}": ("attempt", attempts[name], _attributes(units, meaning))
+        for name, (units, meaning) in ATTEMPT_COLUMNS.items()
+    }
 
 
 def _coordinates(

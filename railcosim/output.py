@@ -80,12 +80,12 @@ def check_writable(path: Path, *, option: str, suffixes: tuple[str, ...]) -> Non
 
 
 def write_dataset(passage: xr.Dataset, path: Path) -> None:
-    """Write a passage in one piece: everything as NetCDF-4, or its time series as CSV or Parquet.
+    """Write a result in one piece: everything as NetCDF-4, or its time series as CSV or Parquet.
 
     Parameters
     ----------
     passage : xarray.Dataset
-        Result of a passage.
+        Result of a passage or of another co-simulation.
     path : Path
         File that ends with .nc, .csv or .parquet.
 
@@ -133,8 +133,12 @@ def _replacing(path: Path) -> Iterator[Path]:
 
 def _write_netcdf(passage: xr.Dataset, path: Path) -> None:
     """Write the file in memory first: HDF5 ends the process when the disk is full."""
+    # HDF5 takes a slash for a group; names of FMU variables may have one.
+    slashed = [str(name) for name in passage.data_vars if "/" in str(name)]
     content = io.BytesIO()
-    passage.to_netcdf(content, engine="h5netcdf")
+    passage.rename({name: name.replace("/", "|") for name in slashed}).to_netcdf(
+        content, engine="h5netcdf"
+    )
     path.write_bytes(content.getbuffer())
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from importlib.metadata import version
-from platform import python_version
 from typing import TYPE_CHECKING
 
 import fmpy
@@ -12,14 +10,14 @@ from threadpoolctl import threadpool_limits
 
 import orchestrator
 from build_fmus import Structure, default_directory, ensure_fmus
-from orchestrator import Cause, Master, Recorder
+from orchestrator import Master, Recorder
 
-from . import __version__
 from .coupled_system import connect, indicators, master_settings
 from .dataset import assemble, count
 from .errors import InputError, RunError
 from .input_tables import check_profiles
 from .motion import speed_law, travel_time
+from .run_record import attempts, programs, statistics
 from .signals import SIGNALS
 from .watched_control import WatchedControl
 
@@ -40,9 +38,6 @@ if TYPE_CHECKING:
 
 FEWEST_POINTS = 2
 """Accepted points that make a result."""
-
-LIBRARIES = ("numpy", "scipy", "fmpy", "pythonfmu", "xarray")
-"""Libraries whose versions a result names."""
 
 
 def run_passage(
@@ -93,15 +88,12 @@ def run_passage(
         raise RunError(str(error)) from error
     if len(recorder.time) < FEWEST_POINTS:
         raise RunError("interrupted before there was anything to keep")
-    log = outcome.step_log
-    names = np.array(["accepted", *(cause.name.lower() for cause in Cause)])
     return assemble(
         scenario,
         times=recorder.time,
         series=_series(scenario, recorder),
-        attempts={name: log[name] for name in log.dtype.names or ()}
-        | {"cause": names[log["cause"]]},
-        attributes={"fmus": fmus, **provenance, **_statistics(outcome)},
+        attempts=attempts(outcome),
+        attributes={"fmus": fmus, **provenance, **statistics(outcome)},
     )
 
 
@@ -172,25 +164,8 @@ def _series(scenario: Scenario, recorder: Recorder) -> dict[str, NDArray[np.floa
 
 def _provenance(paths: FmuPaths) -> dict[str, str]:
     """Say which programs and which FMUs made a result."""
-    libraries = ", ".join(f"{name} {version(name)}" for name in LIBRARIES)
     return {
-        "source": f"railcosim {__version__}",
-        "versions": f"Python {python_version()}, {libraries}",
+        **programs(),
         "track_fmu_guid": fmpy.read_model_description(paths.track).guid,
         "vehicle_fmu_guid": fmpy.read_model_description(paths.vehicle).guid,
-    }
-
-
-def _statistics(outcome: Outcome) -> dict[str, str | int | float]:
-    """Say how the run went."""
-    counts = outcome.statistics
-    return {
-        "complete": int(outcome.finished),
-        "stop_reason": outcome.reason.value,
-        "simulated_time": outcome.end_time,
-        "wall_time": outcome.wall_time,
-        "iterations": counts.iterations,
-        "switches": counts.switches,
-        "steps_accepted": counts.accepted,
-        **{f"steps_rejected_{cause}": number for cause, number in counts.rejected.items()},
     }

@@ -17,13 +17,15 @@ if TYPE_CHECKING:
 
 
 @contextmanager
-def progress_bar(console: Console) -> Iterator[Callable[[Progress], None]]:
+def progress_bar(console: Console, label: str = "passage") -> Iterator[Callable[[Progress], None]]:
     """Show a bar with simulated time, step, rejections so far and time left.
 
     Parameters
     ----------
     console : rich.console.Console
         Where; nothing is shown unless it is a terminal.
+    label : str
+        What runs.
 
     Yields
     ------
@@ -31,7 +33,7 @@ def progress_bar(console: Console) -> Iterator[Callable[[Progress], None]]:
         Takes the progress after every decision of the master.
     """
     bars = Bars(
-        TextColumn("passage"),
+        TextColumn(label),
         BarColumn(),
         TextColumn(
             "t {task.fields[time]:.4f} of {task.total:.4f} s   "
@@ -43,7 +45,7 @@ def progress_bar(console: Console) -> Iterator[Callable[[Progress], None]]:
         disable=not console.is_terminal,
     )
     with bars:
-        task = bars.add_task("passage", total=None, visible=False, time=0.0, step=0.0, rejected=0)
+        task = bars.add_task(label, total=None, visible=False, time=0.0, step=0.0, rejected=0)
 
         def report(progress: Progress) -> None:
             bars.update(

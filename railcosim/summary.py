@@ -114,13 +114,18 @@ def summarise(passage: xr.Dataset) -> Summary:
         max_sleeper_displacement=float(passage["sleeper_displacement"].max()),
         peak_bending_moment_midspan=_largest(cut(passage["bending_moment"].isel(gauge=0))),
         peak_bending_moment_under_wheel=_largest(cut(wheel["bending_moment_under_wheel"])),
-        steps=Steps(
-            accepted=int(passage.attrs["steps_accepted"]),
-            rejected={cause: int(passage.attrs[f"steps_rejected_{cause}"]) for cause in CAUSES},
-            iterations=int(passage.attrs["iterations"]),
-        ),
+        steps=steps_of(passage),
         simulated_time=float(passage.attrs["simulated_time"]),
         wall_time=float(passage.attrs["wall_time"]),
+    )
+
+
+def steps_of(result: xr.Dataset) -> Steps:
+    """Return what the master did, from the attributes of a result."""
+    return Steps(
+        accepted=int(result.attrs["steps_accepted"]),
+        rejected={cause: int(result.attrs[f"steps_rejected_{cause}"]) for cause in CAUSES},
+        iterations=int(result.attrs["iterations"]),
     )
 
 

@@ -1,4 +1,4 @@
-"""The time series of a passage as plain columns."""
+"""The time series of a result as plain columns."""
 
 from __future__ import annotations
 
@@ -38,14 +38,15 @@ def columns(passage: xr.Dataset) -> Iterator[Column]:
     Parameters
     ----------
     passage : xarray.Dataset
-        Result of a passage.
+        Result of a passage or of another co-simulation.
 
     Yields
     ------
     Column
         In the order of the dataset's variables.
     """
-    names = ["time", "distance", *passage.data_vars]
+    over_time = [name for name, axis in passage.coords.items() if axis.dims == ("time",)]
+    names = dict.fromkeys(["time", *over_time, *passage.data_vars])
     for name in names:
         variable = passage[name]
         if variable.dims == ("time",):

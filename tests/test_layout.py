@@ -18,7 +18,7 @@ MAY_IMPORT = {
     "track_fmu": {"numpy", "scipy"},
     "vehicle_fmu": {"numpy", "scipy"},
     "fmu_src": {"numpy", "scipy", "pythonfmu", *MODELS},
-    "orchestrator": {"numpy", "scipy", "fmpy"},
+    "orchestrator": {"numpy", "scipy", "fmpy", "lxml"},
     "build_fmus": {"platformdirs", "fmu_src"},
     "railcosim": {
         *(OURS - {"railcosim"}),

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from railcosim.dataset import ATTEMPT_COLUMNS, assemble, count
+from railcosim.dataset import assemble, count
+from railcosim.run_record import ATTEMPT_COLUMNS
 from railcosim.scenario import Scenario
 from railcosim.signals import SIGNALS
 from railcosim.summary import CAUSES

@@ -57,7 +57,7 @@ def test_version(call):
 
 def test_help_names_the_commands(call):
     assert call("--help").exit_code == 0
-    assert {"run", "build"} <= set(call("--help").stdout.split())
+    assert {"run", "cosim", "build"} <= set(call("--help").stdout.split())
 
 
 def test_a_run_prints_a_table(call, runs):
@@ -159,11 +159,12 @@ def test_an_interrupted_run_ends_with_1_and_a_valid_result(call, runs, tmp_path)
         assert stored.attrs["complete"] == 0
 
 
-def test_build_writes_both_fmus_and_leaves_them_alone(call, tmp_path):
+def test_build_writes_fmus_and_their_system_and_leaves_them_alone(call, tmp_path):
     result = call("build", "--output", tmp_path)
     assert result.exit_code == 0
-    assert result.stdout.split() == [str(tmp_path / "Track.fmu"), str(tmp_path / "Vehicle.fmu")]
-    assert "building Track.fmu" in result.stderr
+    names = ["Track.fmu", "Vehicle.fmu", "Passage.ssp"]
+    assert result.stdout.split() == [str(tmp_path / name) for name in names]
+    assert [line.split()[-1] for line in result.stderr.splitlines()] == names
     again = call("build", "--output", tmp_path)
     assert (again.exit_code, again.stdout, again.stderr) == (0, result.stdout, "")
 

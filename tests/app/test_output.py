@@ -138,3 +138,10 @@ def test_positions_along_the_rail_are_in_the_result(passage):
     assert passage["sleeper_position"].sel(sleeper=1) == Scenario().track.sleeper_spacing
     assert passage["gauge_position"].to_numpy() == pytest.approx(Scenario().gauge_positions)
     assert passage["distance"].to_numpy() == pytest.approx([-0.2, 0.0, 0.1, 0.9], abs=1e-12)
+
+
+def test_a_slash_in_a_name_does_not_stop_netcdf(passage, tmp_path):
+    path = tmp_path / "slash.nc"
+    write_dataset(passage.rename({"contact_force": "a.force/x"}), path)
+    with xr.open_dataset(path, engine="h5netcdf") as stored:
+        assert "a.force|x" in stored

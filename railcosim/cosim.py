@@ -1,0 +1,94 @@
+"""The master on anyone's FMUs: from a system description to a result."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from threadpoolctl import threadpool_limits
+
+import orchestrator
+from orchestrator import Master, Recorder
+from orchestrator.ssp import open_system
+
+from .cosim_result import label_result
+from .errors import InputError, RunError
+from .watched_control import WatchedControl
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    import xarray as xr
+
+    from orchestrator.ssp import AssembledSystem
+
+    from .cosim_options import CosimOptions
+    from .watched_control import Progress
+
+
+def run_system(
+    path: Path,
+    options: CosimOptions,
+    *,
+    notify: Callable[[str], None] | None = None,
+    report: Callable[[Progress], None] | None = None,
+) -> xr.Dataset:
+    """Co-simulate the system of a file.
+
+    Parameters
+    ----------
+    path : Path
+        An .ssp or .ssd file.
+    options : CosimOptions
+        What counts more than what the file says.
+    notify : callable, optional
+        Told in a few words of parameter values that no variable has.
+    report : callable, optional
+        Told of the progress after every decision of the master.
+
+    Returns
+    -------
+    xarray.Dataset
+        See `label_result`. Also after Ctrl-C, with the attribute ``complete`` then 0.
+
+    Raises
+    ------
+    InputError
+        For a file, an FMU or an option that cannot be used.
+    RunError
+        Where the co-simulation cannot go on.
+    """
+    try:
+        # The FMUs share the process and its BLAS: their matrices are too small for more threads.
+        with open_system(path) as opened, threadpool_limits(limits=1, user_api="blas"):
+            for name in opened.unused:
+                if notify is not None:
+                    notify(f"no variable takes the parameter value {name}: it is not used")
+            return _run(opened, options, report)
+    except orchestrator.InputError as error:
+        raise InputError(str(error)) from error
+    except orchestrator.RunError as error:
+        raise RunError(str(error)) from error
+
+
+def _run(
+    opened: AssembledSystem,
+    options: CosimOptions,
+    report: Callable[[Progress], None] | None,
+) -> xr.Dataset:
+    choices = opened.description.master
+    start, stop = options.span(opened.description)
+    settings = options.settings(choices)
+    control = settings.make_controller(stop - start)
+    if report is not None:
+        control = WatchedControl(control, stop_time=stop, report=report)
+    recorder = Recorder()
+    master = Master(
+        opened.system,
+        settings,
+        controller=control,
+        events=options.events or choices.events,
+        observers=[recorder],
+    )
+    outcome = master.run(start, stop)
+    return label_result(opened.description.name, recorder, outcome, settings)

@@ -1,0 +1,62 @@
+"""What every result says about the run that made it."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+from platform import python_version
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from orchestrator import Cause
+
+from . import __version__
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from orchestrator import Outcome
+
+LIBRARIES = ("numpy", "scipy", "fmpy", "pythonfmu", "xarray")
+"""Libraries whose versions a result names."""
+
+ATTEMPT_COLUMNS = {
+    "time": ("s", "start of the attempt"),
+    "step_size": ("s", "size of the attempted step"),
+    "cause": ("1", "accepted, or why the attempt was rejected"),
+    "iterations": ("1", "how often the FMUs were stepped"),
+    "error_norm": ("1", "difference of prediction and result over the tolerance"),
+    "residual_norm": ("1", "what is left of the coupling equations, over the nominal values"),
+}
+"""Columns of the step log with their units and meaning."""
+
+
+def attempts(outcome: Outcome) -> dict[str, NDArray[np.generic]]:
+    """Return the columns `ATTEMPT_COLUMNS` of the step log, causes as texts."""
+    log = outcome.step_log
+    names = np.array(["accepted", *(cause.name.lower() for cause in Cause)])
+    return {name: log[name] for name in log.dtype.names or ()} | {"cause": names[log["cause"]]}
+
+
+def programs() -> dict[str, str]:
+    """Say which programs made a result."""
+    libraries = ", ".join(f"{name} {version(name)}" for name in LIBRARIES)
+    return {
+        "source": f"railcosim {__version__}",
+        "versions": f"Python {python_version()}, {libraries}",
+    }
+
+
+def statistics(outcome: Outcome) -> dict[str, str | int | float]:
+    """Say how the run went."""
+    counts = outcome.statistics
+    return {
+        "complete": int(outcome.finished),
+        "stop_reason": outcome.reason.value,
+        "simulated_time": outcome.end_time,
+        "wall_time": outcome.wall_time,
+        "iterations": counts.iterations,
+        "switches": counts.switches,
+        "steps_accepted": counts.accepted,
+        **{f"steps_rejected_{cause}": number for cause, number in counts.rejected.items()},
+    }

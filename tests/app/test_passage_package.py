@@ -1,0 +1,92 @@
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from build_fmus import default_directory
+from orchestrator import System
+from orchestrator.ssp import open_system
+from railcosim.cosim import run_system
+from railcosim.cosim_options import CosimOptions
+from railcosim.coupled_system import connections, indicators, master_settings
+from railcosim.passage import build_for, run_passage
+from railcosim.passage_package import ensure_package
+from railcosim.scenario import Scenario
+from railcosim.sections import Flat, Run
+from railcosim.signals import SIGNALS
+
+SHORT = Scenario(flat=Flat(depth=2e-3), run=Run(approach=0.1, departure=0.1))
+"""A deep flat strikes: contact is lost and found again within 18 ms."""
+
+
+@pytest.fixture(scope="module")
+def fmus():
+    return build_for(Scenario(), directory=default_directory())
+
+
+def test_the_package_runs_the_same_passage(fmus, tmp_path):
+    """Asserted are 1e-9 of the largest value; the two take the same steps with the same numbers."""
+    path = tmp_path / "short.ssp"
+    ensure_package(SHORT, fmus, path)
+    passage = run_passage(SHORT)
+    system = run_system(path, CosimOptions())
+    assert passage.attrs["switches"] == system.attrs["switches"] > 0
+    assert system["time"].to_numpy() == pytest.approx(passage["time"].to_numpy(), abs=1e-15)
+    for signal in SIGNALS:
+        for k in passage[signal.dim].to_numpy():
+            expected = passage[signal.name].sel({signal.dim: k}).to_numpy().astype(float)
+            scale = 1e-9 * np.abs(expected).max()
+            assert system[signal.path(k)].to_numpy() == pytest.approx(expected, rel=0, abs=scale)
+
+
+def test_the_package_of_the_papers_case(fmus, tmp_path):
+    path = tmp_path / "Passage.ssp"
+    told = []
+    ensure_package(Scenario(), fmus, path, notify=told.append)
+    with zipfile.ZipFile(path) as archive:
+        assert archive.namelist() == [
+            "SystemStructure.ssd",
+            "resources/Track.fmu",
+            "resources/Vehicle.fmu",
+        ]
+    with open_system(path) as opened:
+        description = opened.description
+        assert isinstance(opened.system, System)
+        ends = [(item.source, item.target) for item in opened.system.connections]
+        assert opened.unused == ()
+    assert ends == [(item.source, item.target) for item in connections(2)]
+    assert description.start_time == 0.0
+    # 6.5 m at 40 km/h
+    assert description.stop_time == pytest.approx(0.585, rel=1e-15)
+    assert description.master.events == tuple(indicators(2))
+    chosen = CosimOptions().settings(description.master)
+    assert chosen == master_settings(Scenario())
+    assert told == ["building Passage.ssp"]
+
+
+def test_the_same_passage_gives_the_same_bytes_and_is_left_alone(fmus, tmp_path):
+    first, second = tmp_path / "first.ssp", tmp_path / "second.ssp"
+    ensure_package(SHORT, fmus, first)
+    ensure_package(SHORT, fmus, second)
+    assert first.read_bytes() == second.read_bytes()
+    told = []
+    ensure_package(SHORT, fmus, second, notify=told.append)
+    assert told == []
+    ensure_package(Scenario(), fmus, second, notify=told.append)
+    assert told == ["building second.ssp"]
+    second.write_bytes(first.read_bytes()[:-100])
+    ensure_package(SHORT, fmus, second)
+    assert first.read_bytes() == second.read_bytes()
+
+
+def test_the_build_script_writes_the_package_too(tmp_path):
+    script = Path(__file__).resolve().parents[2] / "build_fmus.py"
+    done = subprocess.run(
+        [sys.executable, script, "--output", tmp_path], capture_output=True, text=True, check=True
+    )
+    names = ["Track.fmu", "Vehicle.fmu", "Passage.ssp"]
+    assert done.stdout.split() == [str(tmp_path / name) for name in names]
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(names)
