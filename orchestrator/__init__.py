@@ -3,9 +3,11 @@
 from .coupling import Algorithm, Attempt, Coupling
 from .decision import Accept, Candidate, Cause, Decision, Failure, Landed, Refine, Reject
 from .errors import (
+    DivergenceError,
     FmuError,
     InitialisationError,
     InputError,
+    LoopGainError,
     OrchestratorError,
     ParticipantError,
     RollbackError,
@@ -38,6 +40,7 @@ __all__ = [
     "Connection",
     "Coupling",
     "Decision",
+    "DivergenceError",
     "ErrorControl",
     "Explicit",
     "Failure",
@@ -48,6 +51,7 @@ __all__ = [
     "InputError",
     "InputShape",
     "Landed",
+    "LoopGainError",
     "Master",
     "MasterSettings",
     "Newton",

@@ -61,7 +61,7 @@ def run_passage(
     directory : Path, optional
         Where the FMUs are kept; `build_fmus.default_directory` without.
     notify : callable, optional
-        Told in a few words when an FMU has to be built.
+        Told in a few words when an FMU has to be built, and of what makes the result doubtful.
     report : callable, optional
         Told of the progress after every decision of the master.
 
@@ -87,6 +87,9 @@ def run_passage(
         raise InputError(str(error)) from error
     except orchestrator.RunError as error:
         raise RunError(str(error)) from error
+    if notify is not None:
+        for warning in outcome.warnings:
+            notify(warning)
     log = outcome.step_log
     names = np.array(["accepted", *(cause.name.lower() for cause in Cause)])
     return assemble(
@@ -186,5 +189,6 @@ def _statistics(outcome: Outcome) -> dict[str, str | int | float]:
         "iterations": counts.iterations,
         "switches": counts.switches,
         "steps_accepted": counts.accepted,
+        **({"warnings": "\n".join(outcome.warnings)} if outcome.warnings else {}),
         **{f"steps_rejected_{cause}": number for cause, number in counts.rejected.items()},
     }

@@ -9,8 +9,9 @@ import pytest
 
 from orchestrator import Cause, Master, Recorder, Reject
 from railcosim.coupled_system import connect, indicators, master_settings
+from railcosim.errors import RunError
 from railcosim.motion import speed_law
-from railcosim.passage import build_for
+from railcosim.passage import build_for, run_passage
 from railcosim.scenario_file import read_scenario
 
 from .full_model import FullModel, haversine
@@ -27,6 +28,13 @@ def single(position):
 
 def periodic(position):
     return haversine((position - FLAT + CIRCUMFERENCE / 2) % CIRCUMFERENCE - CIRCUMFERENCE / 2)
+
+
+def test_an_explicit_run_that_cannot_work_is_refused():
+    """It would end with 60 MN where the truth is 234 kN."""
+    scenario = read_scenario(None, ("master.algorithm=jacobi", "master.step=1e-4"))
+    with pytest.raises(RunError, match=r"gain of 0\.5\d+ over a step of 0\.0001 s.*newton"):
+        run_passage(scenario)
 
 
 # figures of the paper, and those of an independent full finite element solution
