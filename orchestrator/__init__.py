@@ -19,6 +19,7 @@ from .errors import (
 )
 from .explicit import Explicit
 from .fmu import FmuParticipant
+from .isolated import IsolatedParticipant
 from .master import Master
 from .newton import Newton
 from .observers import Observer
@@ -50,6 +51,7 @@ __all__ = [
     "InitialisationError",
     "InputError",
     "InputShape",
+    "IsolatedParticipant",
     "Landed",
     "LoopGainError",
     "Master",

@@ -12,6 +12,7 @@ import xarray as xr
 from rich.console import Console
 
 from build_fmus import default_directory
+from orchestrator.isolated import DEFAULT_TIMEOUT
 
 from . import __version__
 from .errors import InputError, RunError
@@ -74,6 +75,13 @@ def run(
         typer.Option("--set", metavar="KEY=VALUE", help="Replace a key, as in flat.depth=1e-3."),
     ] = None,
     fmus: Annotated[FmuKind, typer.Option(help="Which build of the FMUs runs.")] = FmuKind.PYTHON,
+    isolate: Annotated[
+        bool, typer.Option("--isolate", help="Run each FMU in a process of its own.")
+    ] = False,
+    timeout: Annotated[
+        float | None,
+        typer.Option(metavar="S", help="Longest answer of an FMU [s]; with --isolate, 60 without."),
+    ] = None,
     output: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Result: .nc, .csv or .parquet.")
     ] = None,
@@ -92,7 +100,8 @@ def run(
             check_writable(output, option="--output", suffixes=DATA_SUFFIXES)
         if plot is not None:
             check_writable(plot, option="--plot", suffixes=FIGURE_SUFFIXES)
-        passage = _followed_run(case, fmus, quiet=quiet)
+        limit = _time_limit(timeout, isolate=isolate)
+        passage = _followed_run(case, fmus, limit, quiet=quiet)
         if output is not None:
             write_dataset(passage, output)
         if plot is not None:
@@ -122,12 +131,25 @@ def build(
             typer.echo(path)
 
 
-def _followed_run(case: Scenario, fmus: FmuKind, *, quiet: bool) -> xr.Dataset:
+def _time_limit(timeout: float | None, *, isolate: bool) -> float | None:
+    """Return the time-out of isolated FMUs [s], or None where they are not isolated."""
+    if timeout is None:
+        return DEFAULT_TIMEOUT if isolate else None
+    if not isolate:
+        raise InputError(f"--timeout {timeout:g} has no effect without --isolate: give both")
+    if not timeout > 0.0:
+        raise InputError(f"--timeout is {timeout:g} s but must be above 0 s")
+    return timeout
+
+
+def _followed_run(
+    case: Scenario, fmus: FmuKind, timeout: float | None, *, quiet: bool
+) -> xr.Dataset:
     """Run with a progress bar on stderr, or without a word."""
     if quiet:
-        return run_passage(case, fmus=fmus.value)
+        return run_passage(case, fmus=fmus.value, timeout=timeout)
     with progress_bar(Console(stderr=True)) as report:
-        return run_passage(case, fmus=fmus.value, notify=_say, report=report)
+        return run_passage(case, fmus=fmus.value, timeout=timeout, notify=_say, report=report)
 
 
 @contextmanager

@@ -12,7 +12,7 @@ from threadpoolctl import threadpool_limits
 
 import orchestrator
 from build_fmus import Structure, default_directory, ensure_fmus
-from orchestrator import Cause, Master, Recorder
+from orchestrator import Cause, IsolatedParticipant, Master, Recorder
 
 from . import __version__
 from .coupled_system import connect, indicators, master_settings
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from build_fmus import FmuPaths
-    from orchestrator import Outcome
+    from orchestrator import Outcome, System
     from vehicle_fmu.speed import SpeedLaw
 
     from .scenario import Scenario
@@ -46,6 +46,7 @@ def run_passage(
     scenario: Scenario,
     *,
     fmus: str = "python",
+    timeout: float | None = None,
     directory: Path | None = None,
     notify: Callable[[str], None] | None = None,
     report: Callable[[Progress], None] | None = None,
@@ -58,6 +59,8 @@ def run_passage(
         What to run.
     fmus : str
         Which build of the FMUs runs: ``python``.
+    timeout : float, optional
+        Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
     directory : Path, optional
         Where the FMUs are kept; `build_fmus.default_directory` without.
     notify : callable, optional
@@ -82,13 +85,20 @@ def run_passage(
     paths = build_for(scenario, directory=directory, notify=notify)
     try:
         with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
-            recorder, outcome = _simulate(scenario, law, paths, report)
+            system = connect(scenario, paths, law, timeout=timeout)
+            recorder, outcome = _simulate(scenario, law, system, report)
     except orchestrator.InputError as error:
         raise InputError(str(error)) from error
     except orchestrator.RunError as error:
         raise RunError(str(error)) from error
+    incidents = [
+        incident
+        for participant in system.participants
+        if isinstance(participant, IsolatedParticipant)
+        for incident in participant.incidents
+    ]
     if notify is not None:
-        for warning in outcome.warnings:
+        for warning in (*outcome.warnings, *incidents):
             notify(warning)
     log = outcome.step_log
     names = np.array(["accepted", *(cause.name.lower() for cause in Cause)])
@@ -135,7 +145,7 @@ def build_for(
 def _simulate(
     scenario: Scenario,
     law: SpeedLaw,
-    paths: FmuPaths,
+    system: System,
     report: Callable[[Progress], None] | None,
 ) -> tuple[Recorder, Outcome]:
     """Run the master over the whole way."""
@@ -146,7 +156,7 @@ def _simulate(
         control = WatchedControl(control, stop_time=stop_time, report=report)
     recorder = Recorder([path for signal in SIGNALS for path in _paths(scenario, signal)])
     master = Master(
-        connect(scenario, paths, law),
+        system,
         settings,
         controller=control,
         events=indicators(scenario.vehicle.wheels),

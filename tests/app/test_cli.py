@@ -104,6 +104,8 @@ def test_a_scenario_file_is_read_and_the_files_are_written(call, runs, tmp_path)
         (["--set", "run.approach=20"], "the track begins at 0 m"),
         (["--set", "run.departure=20"], "the track ends at 32.5 m"),
         (["--set", "vehicle.speed_kmh=0"], "above 0 km/h"),
+        (["--timeout", "5"], "without --isolate"),
+        (["--isolate", "--timeout", "0"], "above 0 s"),
         (["missing.toml"], "No such file"),
         (["--output", "passage.txt"], "--output passage.txt"),
         (["--output", "missing/passage.nc"], "does not exist"),
