@@ -19,6 +19,7 @@ from .errors import (
 )
 from .explicit import Explicit
 from .fmu import FmuParticipant
+from .fmu_check import Verdict, check_fmu
 from .isolated import IsolatedParticipant
 from .master import Master
 from .newton import Newton
@@ -79,6 +80,8 @@ __all__ = [
     "System",
     "Variable",
     "Vector",
+    "Verdict",
     "WiringError",
     "ZenoError",
+    "check_fmu",
 ]

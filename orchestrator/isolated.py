@@ -144,6 +144,11 @@ class IsolatedParticipant:
         """What it logged last before it failed, oldest first."""
         return self._messages
 
+    @property
+    def process(self) -> int | None:
+        """Number of the process, while there is one."""
+        return None if self._worker is None else self._worker.number
+
     def bind(
         self,
         *,

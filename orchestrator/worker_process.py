@@ -63,6 +63,11 @@ class WorkerProcess:
         self._selector.register(self._from, selectors.EVENT_READ)
         self.started = self.ask(setup)
 
+    @property
+    def number(self) -> int:
+        """Number of the process."""
+        return self._process.pid
+
     def ask(self, request: bytes) -> Report:
         """Send a request and return the report.
 

@@ -1,8 +1,9 @@
-"""The command line: `railcosim run` and `railcosim build`."""
+"""The command line: `railcosim run`, `railcosim build` and `railcosim check`."""
 
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import asdict
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -11,7 +12,9 @@ import typer
 import xarray as xr
 from rich.console import Console
 
+import orchestrator
 from build_fmus import default_directory
+from orchestrator import check_fmu
 from orchestrator.isolated import DEFAULT_TIMEOUT
 
 from . import __version__
@@ -24,6 +27,7 @@ from .scenario import Scenario
 from .scenario_file import read_scenario
 from .summary import summarise
 from .summary_table import summary_table
+from .verdict_table import verdict_table
 
 app = typer.Typer(
     name="railcosim",
@@ -129,6 +133,33 @@ def build(
         paths = build_for(Scenario(), directory=directory or default_directory(), notify=_say)
         for path in (paths.track, paths.vehicle):
             typer.echo(path)
+
+
+@app.command()
+def check(
+    fmu: Annotated[Path, typer.Argument(metavar="FMU", help="An FMI 2.0 co-simulation FMU.")],
+    *,
+    step: Annotated[float, typer.Option(metavar="S", help="Step to try it with [s].")] = 1e-3,
+    timeout: Annotated[
+        float, typer.Option(metavar="S", help="Longest answer to one call [s].")
+    ] = DEFAULT_TIMEOUT,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the verdicts as one JSON object.")
+    ] = False,
+) -> None:
+    """Try what an FMU claims, in processes that may crash; exit code 0 if all of it holds."""
+    with _exit_codes():
+        try:
+            verdicts = check_fmu(fmu, step_size=step, timeout=timeout)
+        except orchestrator.InputError as error:
+            raise InputError(str(error)) from error
+        if as_json:
+            typer.echo(json.dumps({item.claim: asdict(item) for item in verdicts}, indent=2))
+        else:
+            Console().print(verdict_table(verdicts, fmu.name))
+        broken = [item.claim for item in verdicts if item.holds is False]
+        if broken:
+            raise RunError(f"{fmu.name}: it does not hold that {' and that '.join(broken)}")
 
 
 def _time_limit(timeout: float | None, *, isolate: bool) -> float | None:

@@ -86,6 +86,8 @@ class {name}(Fmi2Slave):
         self.x = float("nan")
 
     def _get_fmu_state(self):
+        if self.trouble == 10:
+            self.hoard = getattr(self, "hoard", []) + [bytearray(10000)]
         kept = ("x", "v", "force", "last_force", "steps", "moving")
         return State((name, getattr(self, name)) for name in kept)
 

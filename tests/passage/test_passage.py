@@ -37,6 +37,14 @@ def test_an_explicit_run_that_cannot_work_is_refused():
         run_passage(scenario)
 
 
+def test_isolated_fmus_give_the_same_passage_bit_for_bit():
+    scenario = read_scenario(None, ("run.approach=0.2", "run.departure=0.1"))
+    inside, outside = run_passage(scenario), run_passage(scenario, timeout=60.0)
+    assert inside.sizes["time"] > 100
+    for name in ("time", "contact_force", "rail_displacement", "gap"):
+        assert inside[name].to_numpy().tobytes() == outside[name].to_numpy().tobytes(), name
+
+
 # figures of the paper, and those of an independent full finite element solution
 
 
