@@ -3,9 +3,11 @@
 from .coupling import Algorithm, Attempt, Coupling
 from .decision import Accept, Candidate, Cause, Decision, Failure, Landed, Refine, Reject
 from .errors import (
+    DivergenceError,
     FmuError,
     InitialisationError,
     InputError,
+    LoopGainError,
     OrchestratorError,
     ParticipantError,
     RollbackError,
@@ -18,6 +20,8 @@ from .errors import (
 )
 from .explicit import Explicit
 from .fmu import FmuParticipant
+from .fmu_check import Verdict, check_fmu
+from .isolated import IsolatedParticipant
 from .master import Master
 from .newton import Newton
 from .observers import Observer
@@ -40,6 +44,7 @@ __all__ = [
     "Connection",
     "Coupling",
     "Decision",
+    "DivergenceError",
     "ErrorControl",
     "Explicit",
     "Failure",
@@ -49,8 +54,10 @@ __all__ = [
     "InitialisationError",
     "InputError",
     "InputShape",
+    "IsolatedParticipant",
     "Landed",
     "Linear",
+    "LoopGainError",
     "Master",
     "MasterSettings",
     "Newton",
@@ -78,7 +85,9 @@ __all__ = [
     "Unit",
     "Variable",
     "Vector",
+    "Verdict",
     "WiringError",
     "ZenoError",
+    "check_fmu",
     "convert",
 ]

@@ -1,5 +1,6 @@
 """What every coupling algorithm is to the master."""
 
+from collections.abc import Sequence
 from typing import NamedTuple, Protocol
 
 from .block import Block
@@ -17,7 +18,7 @@ class Attempt(NamedTuple):
     iterations : int
         How often the coupled participants were stepped.
     residual_norm : float
-        Largest remaining residual over the nominal value; NaN when not iterated.
+        Largest remaining residual over the nominal value; NaN when it was not computed.
     """
 
     failure: Failure | None
@@ -36,6 +37,10 @@ class Coupling(Protocol):
     def iterates(self) -> bool:
         """Whether an attempt steps a participant more than once."""
 
+    @property
+    def warnings(self) -> Sequence[str]:
+        """What was in doubt on the way, a sentence each."""
+
     def attempt(self, time: float, step_size: float, last: Vector, predicted: Vector) -> Attempt:
         """Try the step from `time` by `step_size` [s].
 
@@ -44,7 +49,13 @@ class Coupling(Protocol):
         """
 
     def commit(self) -> None:
-        """Keep what the last attempt learned."""
+        """Keep what the last attempt learned.
+
+        Raises
+        ------
+        DivergenceError
+            When the accepted steps leave no hope.
+        """
 
     def forget(self) -> None:
         """Keep nothing: the participants have switched."""

@@ -40,6 +40,14 @@ class RollbackError(RunError):
     """A participant cannot go back to a saved state, or does not do it truly."""
 
 
+class LoopGainError(RunError):
+    """A loop answers too strongly for an explicit algorithm."""
+
+
+class DivergenceError(RunError):
+    """An explicit algorithm loses the values it should follow."""
+
+
 class StepTooSmallError(RunError):
     """The step would have to become smaller than the smallest one allowed."""
 
@@ -95,6 +103,14 @@ def list_inputs(inputs: Mapping[str, float], limit: int = 12) -> str:
     if len(inputs) > limit:
         shown.append(f"{len(inputs) - limit} more")
     return ", ".join(shown)
+
+
+def list_names(names: Sequence[str], limit: int = 4) -> str:
+    """Return ``"a, b and c"``, at most `limit` of them."""
+    shown = list(names[:limit])
+    if len(names) > limit:
+        shown.append(f"{len(names) - limit} more")
+    return " and ".join([*filter(None, [", ".join(shown[:-1])]), *shown[-1:]])
 
 
 def close_matches(name: str, known: Iterable[str]) -> str:

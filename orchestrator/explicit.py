@@ -1,9 +1,13 @@
 """Explicit coupling: every participant steps once, with inputs taken from the past where needed."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from .block import Block
 from .coupling import Attempt, Coupling
+from .divergence import DivergenceMonitor
 from .participant import InputShape, Vector
 
 
@@ -12,8 +16,9 @@ class Explicit:
     """Jacobi and Gauss-Seidel coupling.
 
     Jacobi takes all inputs within a block from the past, Gauss-Seidel only those whose sources
-    step later. Unstable when the gain of an algebraic loop is 1 or more; of first order with held
-    inputs and of second with extrapolated ones.
+    step later. Unstable when the gain of a loop is 1 or more, with extrapolated inputs from 1/3 on
+    where the loop opposes what drives it; of first order with held inputs and of second with
+    extrapolated ones.
 
     Attributes
     ----------
@@ -62,10 +67,23 @@ class ExplicitCoupling:
     def __init__(self, blocks: list[Block], *, extrapolates: bool) -> None:
         self._blocks = blocks
         self._extrapolates = extrapolates
+        self._loops = [
+            (block, DivergenceMonitor(block.names, block.nominal))
+            for block in blocks
+            if block.unknowns.size
+        ]
+        self._time = 0.0
+        self._prescribed = np.empty(0)
+
+    @property
+    def warnings(self) -> Sequence[str]:
+        """What was in doubt on the way, a sentence each."""
+        return [monitor.warning for _, monitor in self._loops if monitor.warning]
 
     def attempt(self, time: float, step_size: float, last: Vector, predicted: Vector) -> Attempt:
         """Step everything once."""
         values = predicted if self._extrapolates else last
+        self._time, self._prescribed = time, values
         for block in self._blocks:
             failure = block.step(values[block.unknowns], time, step_size)
             if failure is not None:
@@ -73,7 +91,11 @@ class ExplicitCoupling:
         return Attempt(None, 1, float("nan"))
 
     def commit(self) -> None:
-        """Learn nothing."""
+        """Compare what was prescribed in the last attempt with what came out."""
+        for block, monitor in self._loops:
+            monitor.accept(self._prescribed[block.unknowns], block.computed(), self._time)
 
     def forget(self) -> None:
-        """Know nothing to forget."""
+        """Expect nothing of the next step."""
+        for _, monitor in self._loops:
+            monitor.restart()

@@ -221,6 +221,8 @@ class Loop:
                 f"steps with an explicit algorithm unless min_step is given: "
                 f"{self._explain(candidate, cause)}"
             )
+        if error is not None and wanted < self._controller.min_step:
+            return step  # the one repetition that an error is granted
         if cause is Cause.EVENT:
             self._switches.narrow()
             return self._clock.plan_exactly(wanted)

@@ -6,15 +6,16 @@ from contextlib import ExitStack
 from math import inf
 from time import perf_counter
 
-from .block import tear
-from .clock import Clock
-from .coupling import Algorithm
+from .block import Block, tear
+from .clock import Clock, Step
+from .coupling import Algorithm, Coupling
 from .errors import SettingsError, WiringError
 from .events import Switches
 from .exchange import Exchange
 from .initialisation import settle_initial_values
 from .interrupt import Interrupt, deferred_interrupt
 from .loop import Loop
+from .loop_gain import estimate_loop_gains, review_loop_gains
 from .observers import Observer
 from .outcome import Outcome, StopReason
 from .rollback import check_rollback, place_without_rollback
@@ -102,12 +103,15 @@ class Master:
             input_shape=self._algorithm.input_shape,
         )
         switches = self._make_switches(duration)
-        loop = self._make_loop(exchange, controller, clock, switches)
+        loop, blocks, coupling = self._make_loop(exchange, controller, clock, switches)
+        warnings: list[str] = []
         with deferred_interrupt() as interrupt, ExitStack() as cleanup:
             self._initialise(exchange, clock, stop_time, cleanup)
+            first = clock.plan(controller.first_step)
             if loop.rolls_back and self._settings.check_rollback:
-                first = clock.plan(controller.first_step)
                 check_rollback(loop.saved, first.start, first.size)
+            if not coupling.iterates:
+                warnings += self._review_loops(loop, exchange, blocks, first)
             reason = self._observe_loop(loop, interrupt, exchange)
         return Outcome(
             end_time=clock.time,
@@ -116,7 +120,30 @@ class Master:
             step_log=loop.log.as_array(),
             switches=tuple(switches.found),
             wall_time=perf_counter() - began,
+            warnings=(*warnings, *coupling.warnings),
         )
+
+    def _review_loops(
+        self, loop: Loop, exchange: Exchange, blocks: list[Block], first: Step
+    ) -> list[str]:
+        """Refuse an explicit algorithm where a loop is too strong for it; return what is in doubt.
+
+        A run that saves no states needs them here, so that they are checked first.
+        """
+        if not loop.rolls_back:
+            if not self._settings.check_rollback:
+                return []
+            coupled = {n for block in blocks if block.unknowns.size for n in block.order}
+            stages = [exchange.stages[place] for place in sorted(coupled)]
+            able = [stage for stage in stages if stage.participant.can_save_state]
+            check_rollback(able, first.start, first.size)
+        gains = estimate_loop_gains(exchange, blocks, first.start, first.size)
+        warnings = review_loop_gains(
+            gains, first.size, extrapolates=self._algorithm.uses_prediction
+        )
+        for warning in warnings:
+            logger.warning("%s", warning)
+        return warnings
 
     def _choose(self) -> list[str]:
         available = self._system.variables()
@@ -141,7 +168,7 @@ class Master:
 
     def _make_loop(
         self, exchange: Exchange, controller: StepController, clock: Clock, switches: Switches
-    ) -> Loop:
+    ) -> tuple[Loop, list[Block], Coupling]:
         algorithm = self._algorithm
         blocks = tear(exchange, everything=algorithm.tears_everything, last=None)
         varies = controller.grid is None or controller.may_reject or bool(self._events)
@@ -156,9 +183,10 @@ class Master:
                 self._check_indicators_are_not_of(self._system.participants[place].name)
                 blocks = tear(exchange, everything=algorithm.tears_everything, last=place)
                 last = blocks.pop()
-        return Loop(
+        coupling = algorithm.couple(blocks)
+        loop = Loop(
             exchange=exchange,
-            coupling=algorithm.couple(blocks),
+            coupling=coupling,
             controller=controller,
             switches=switches,
             clock=clock,
@@ -168,6 +196,7 @@ class Master:
             observers=self._observers,
             settings=self._settings,
         )
+        return loop, blocks, coupling
 
     def _check_steps_may_vary(self) -> None:
         for participant in self._system.participants:

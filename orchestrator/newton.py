@@ -77,6 +77,8 @@ class NewtonCoupling:
         Blocks, upstream first.
     """
 
+    warnings = ()
+
     def __init__(self, equations: list[tuple[Block, FixedPoint]]) -> None:
         self._equations = equations
         self._by_step_size: dict[float, list[Matrix | None]] = {}

@@ -76,6 +76,8 @@ class Outcome:
         Located changes of side.
     wall_time : float
         Seconds from instantiation to the end.
+    warnings : tuple of str
+        What makes the result doubtful, a sentence each.
     """
 
     end_time: float
@@ -84,6 +86,7 @@ class Outcome:
     step_log: NDArray[np.void]
     switches: tuple[Switch, ...]
     wall_time: float
+    warnings: tuple[str, ...] = ()
 
     @property
     def finished(self) -> bool:

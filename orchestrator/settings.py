@@ -51,7 +51,8 @@ class MasterSettings:
     max_wall_time : float or None
         Seconds of wall time after which the run ends early.
     check_rollback : bool
-        Whether participants must prove at the start that they can go back.
+        Whether participants must prove at the start that they can go back. Without it, an explicit
+        run with fixed steps and without `min_step` does not measure the gain of its loops either.
     """
 
     tolerance: float | None

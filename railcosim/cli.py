@@ -1,10 +1,11 @@
-"""The command line: `railcosim run`, `railcosim cosim` and `railcosim build`."""
+"""The command line: `railcosim run`, `cosim`, `build` and `check`."""
 
 import json
 import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import asdict
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,7 +14,10 @@ import typer
 import xarray as xr
 from rich.console import Console
 
+import orchestrator
 from build_fmus import default_directory
+from orchestrator import check_fmu
+from orchestrator.isolated import DEFAULT_TIMEOUT
 
 from . import __version__
 from .cosim import run_system
@@ -30,6 +34,7 @@ from .scenario import Scenario
 from .scenario_file import read_scenario
 from .summary import summarise
 from .summary_table import summary_table
+from .verdict_table import verdict_table
 
 USAGE_ERROR: Any = typer.BadParameter.__mro__[1]
 """What typer raises for a wrong command line; newer versions bring a click of their own."""
@@ -105,6 +110,13 @@ def run(
         typer.Option("--set", metavar="KEY=VALUE", help="Replace a key, as in flat.depth=1e-3."),
     ] = None,
     fmus: Annotated[FmuKind, typer.Option(help="Which build of the FMUs runs.")] = FmuKind.PYTHON,
+    isolate: Annotated[
+        bool, typer.Option("--isolate", help="Run each FMU in a process of its own.")
+    ] = False,
+    timeout: Annotated[
+        float | None,
+        typer.Option(metavar="S", help="Longest answer of an FMU [s]; with --isolate, 60 without."),
+    ] = None,
     output: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Result: .nc, .csv or .parquet.")
     ] = None,
@@ -123,9 +135,10 @@ def run(
             check_writable(output, option="--output", suffixes=DATA_SUFFIXES)
         if plot is not None:
             check_writable(plot, option="--plot", suffixes=FIGURE_SUFFIXES)
+        limit = _time_limit(timeout, isolate=isolate)
         for note in notes(case):
             _say(f"note: {note}")
-        passage = _followed_run(case, fmus, quiet=quiet)
+        passage = _followed_run(case, fmus, limit, quiet=quiet)
         if output is not None:
             write_dataset(passage, output)
         if plot is not None:
@@ -211,12 +224,52 @@ def build(
             typer.echo(path)
 
 
-def _followed_run(case: Scenario, fmus: FmuKind, *, quiet: bool) -> xr.Dataset:
+@app.command()
+def check(
+    fmu: Annotated[Path, typer.Argument(metavar="FMU", help="An FMI 2.0 co-simulation FMU.")],
+    *,
+    step: Annotated[float, typer.Option(metavar="S", help="Step to try it with [s].")] = 1e-3,
+    timeout: Annotated[
+        float, typer.Option(metavar="S", help="Longest answer to one call [s].")
+    ] = DEFAULT_TIMEOUT,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the verdicts as one JSON object.")
+    ] = False,
+) -> None:
+    """Try what an FMU claims, in processes that may crash; exit code 0 if all of it holds."""
+    with _exit_codes():
+        try:
+            verdicts = check_fmu(fmu, step_size=step, timeout=timeout)
+        except orchestrator.InputError as error:
+            raise InputError(str(error)) from error
+        if as_json:
+            typer.echo(json.dumps({item.claim: asdict(item) for item in verdicts}, indent=2))
+        else:
+            Console().print(verdict_table(verdicts, fmu.name))
+        broken = [item.claim for item in verdicts if item.holds is False]
+        if broken:
+            raise RunError(f"{fmu.name}: it does not hold that {' and that '.join(broken)}")
+
+
+def _time_limit(timeout: float | None, *, isolate: bool) -> float | None:
+    """Return the time-out of isolated FMUs [s], or None where they are not isolated."""
+    if timeout is None:
+        return DEFAULT_TIMEOUT if isolate else None
+    if not isolate:
+        raise InputError(f"--timeout {timeout:g} has no effect without --isolate: give both")
+    if not timeout > 0.0:
+        raise InputError(f"--timeout is {timeout:g} s but must be above 0 s")
+    return timeout
+
+
+def _followed_run(
+    case: Scenario, fmus: FmuKind, timeout: float | None, *, quiet: bool
+) -> xr.Dataset:
     """Run with a progress bar on stderr, or without a word."""
     if quiet:
-        return run_passage(case, fmus=fmus.value)
+        return run_passage(case, fmus=fmus.value, timeout=timeout)
     with progress_bar(Console(stderr=True)) as report:
-        return run_passage(case, fmus=fmus.value, notify=_say, report=report)
+        return run_passage(case, fmus=fmus.value, timeout=timeout, notify=_say, report=report)
 
 
 def _followed_cosim(system: Path, options: CosimOptions, *, quiet: bool) -> xr.Dataset:

@@ -12,6 +12,7 @@ from orchestrator.ssp import open_system
 
 from .cosim_result import label_result
 from .errors import InputError, RunError
+from .run_record import doubts
 from .watched_control import WatchedControl
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ def run_system(
             for name in opened.unused:
                 if notify is not None:
                     notify(f"no variable takes the parameter value {name}: it is not used")
-            return _run(opened, options, report)
+            return _run(opened, options, notify, report)
     except orchestrator.InputError as error:
         raise InputError(str(error)) from error
     except orchestrator.RunError as error:
@@ -74,6 +75,7 @@ def run_system(
 def _run(
     opened: AssembledSystem,
     options: CosimOptions,
+    notify: Callable[[str], None] | None,
     report: Callable[[Progress], None] | None,
 ) -> xr.Dataset:
     choices = opened.description.master
@@ -91,4 +93,7 @@ def _run(
         observers=[recorder],
     )
     outcome = master.run(start, stop)
+    if notify is not None:
+        for doubt in doubts(outcome, opened.system):
+            notify(doubt)
     return label_result(opened.description.name, recorder, outcome, settings)

@@ -5,15 +5,23 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import TYPE_CHECKING, TypeAlias, cast
 
-from orchestrator import Connection, FmuParticipant, MasterSettings, System
+from orchestrator import (
+    Connection,
+    FmuParticipant,
+    IsolatedParticipant,
+    MasterSettings,
+    System,
+)
 
 from .motion import initial_speed
 from .sections import Track
 
 if TYPE_CHECKING:
+    from pathlib import Path
     from typing import Literal
 
     from build_fmus import FmuPaths
+    from orchestrator import Participant
     from vehicle_fmu.speed import SpeedLaw
 
     from .scenario import Scenario
@@ -28,7 +36,9 @@ SMALLEST_DIVISION = 1e-4
 """How far a failing step of fixed size may be divided, where the scenario does not say."""
 
 
-def connect(scenario: Scenario, paths: FmuPaths, law: SpeedLaw) -> System:
+def connect(
+    scenario: Scenario, paths: FmuPaths, law: SpeedLaw, *, timeout: float | None = None
+) -> System:
     """Join track and vehicle.
 
     Parameters
@@ -39,16 +49,22 @@ def connect(scenario: Scenario, paths: FmuPaths, law: SpeedLaw) -> System:
         FMUs of the scenario's size.
     law : SpeedLaw
         Speed of the vehicle.
+    timeout : float, optional
+        Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
 
     Raises
     ------
     orchestrator.errors.InputError
         For an FMU that is missing, corrupt or another one.
     """
-    vehicle = FmuParticipant(
-        paths.vehicle, name="vehicle", start_values=vehicle_values(scenario, law)
-    )
-    track = FmuParticipant(paths.track, name="track", start_values=track_values(scenario, law))
+
+    def participant(path: Path, name: str, values: dict[str, Value]) -> Participant:
+        if timeout is None:
+            return FmuParticipant(path, name=name, start_values=values)
+        return IsolatedParticipant(path, name=name, start_values=values, timeout=timeout)
+
+    vehicle = participant(paths.vehicle, "vehicle", vehicle_values(scenario, law))
+    track = participant(paths.track, "track", track_values(scenario, law))
     return System([vehicle, track], connections(scenario.vehicle.wheels))
 
 

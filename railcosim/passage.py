@@ -17,7 +17,7 @@ from .dataset import assemble, count
 from .errors import InputError, RunError
 from .input_tables import check_profiles
 from .motion import speed_law, travel_time
-from .run_record import attempts, programs, statistics
+from .run_record import attempts, doubts, programs, statistics
 from .signals import SIGNALS
 from .watched_control import WatchedControl
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from build_fmus import FmuPaths
-    from orchestrator import Outcome
+    from orchestrator import Outcome, System
     from vehicle_fmu.speed import SpeedLaw
 
     from .scenario import Scenario
@@ -44,6 +44,7 @@ def run_passage(
     scenario: Scenario,
     *,
     fmus: str = "python",
+    timeout: float | None = None,
     directory: Path | None = None,
     notify: Callable[[str], None] | None = None,
     report: Callable[[Progress], None] | None = None,
@@ -56,10 +57,12 @@ def run_passage(
         What to run.
     fmus : str
         Which build of the FMUs runs: ``python``.
+    timeout : float, optional
+        Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
     directory : Path, optional
         Where the FMUs are kept; `build_fmus.default_directory` without.
     notify : callable, optional
-        Told in a few words when an FMU has to be built.
+        Told in a few words when an FMU has to be built, and of what makes the result doubtful.
     report : callable, optional
         Told of the progress after every decision of the master.
 
@@ -81,11 +84,15 @@ def run_passage(
     provenance = _provenance(paths)
     try:
         with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
-            recorder, outcome = _simulate(scenario, law, paths, report)
+            system = connect(scenario, paths, law, timeout=timeout)
+            recorder, outcome = _simulate(scenario, law, system, report)
     except orchestrator.InputError as error:
         raise InputError(str(error)) from error
     except orchestrator.RunError as error:
         raise RunError(str(error)) from error
+    if notify is not None:
+        for doubt in doubts(outcome, system):
+            notify(doubt)
     if len(recorder.time) < FEWEST_POINTS:
         raise RunError("interrupted before there was anything to keep")
     return assemble(
@@ -130,7 +137,7 @@ def build_for(
 def _simulate(
     scenario: Scenario,
     law: SpeedLaw,
-    paths: FmuPaths,
+    system: System,
     report: Callable[[Progress], None] | None,
 ) -> tuple[Recorder, Outcome]:
     """Run the master over the whole way."""
@@ -141,7 +148,7 @@ def _simulate(
         control = WatchedControl(control, stop_time=stop_time, report=report)
     recorder = Recorder([path for signal in SIGNALS for path in _paths(scenario, signal)])
     master = Master(
-        connect(scenario, paths, law),
+        system,
         settings,
         controller=control,
         events=indicators(scenario.vehicle.wheels),

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from orchestrator import Cause
+from orchestrator import Cause, IsolatedParticipant
 
 from . import __version__
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from orchestrator import Outcome
+    from orchestrator import Outcome, System
 
 LIBRARIES = ("numpy", "scipy", "fmpy", "pythonfmu", "xarray")
 """Libraries whose versions a result names."""
@@ -47,6 +47,17 @@ def programs() -> dict[str, str]:
     }
 
 
+def doubts(outcome: Outcome, system: System) -> list[str]:
+    """What makes a result doubtful: warnings of the master, crashes of FMUs that were survived."""
+    incidents = [
+        incident
+        for participant in system.participants
+        if isinstance(participant, IsolatedParticipant)
+        for incident in participant.incidents
+    ]
+    return [*outcome.warnings, *incidents]
+
+
 def statistics(outcome: Outcome) -> dict[str, str | int | float]:
     """Say how the run went."""
     counts = outcome.statistics
@@ -58,5 +69,6 @@ def statistics(outcome: Outcome) -> dict[str, str | int | float]:
         "iterations": counts.iterations,
         "switches": counts.switches,
         "steps_accepted": counts.accepted,
+        **({"warnings": "\n".join(outcome.warnings)} if outcome.warnings else {}),
         **{f"steps_rejected_{cause}": number for cause, number in counts.rejected.items()},
     }

@@ -7,6 +7,7 @@ import xarray as xr
 from typer.testing import CliRunner
 
 import railcosim
+from orchestrator import Verdict
 from railcosim import cli
 from railcosim.errors import InputError, RunError
 
@@ -106,6 +107,8 @@ def test_a_scenario_file_is_read_and_the_files_are_written(call, runs, tmp_path)
         (["--set", "run.approach=20"], "the track begins at 0 m"),
         (["--set", "run.departure=20"], "the track ends at 32.5 m"),
         (["--set", "vehicle.speed_kmh=0"], "at least 0.1 km/h"),
+        (["--timeout", "5"], "without --isolate"),
+        (["--isolate", "--timeout", "0"], "above 0 s"),
         (["missing.toml"], "No such file"),
         (["--output", "passage.txt"], "--output passage.txt"),
         (["--output", "missing/passage.nc"], "does not exist"),
@@ -157,6 +160,25 @@ def test_an_interrupted_run_ends_with_1_and_a_valid_result(call, runs, tmp_path)
     assert json.loads(result.stdout)["peak_contact_force"] is None
     with xr.open_dataset(path, engine="h5netcdf") as stored:
         assert stored.attrs["complete"] == 0
+
+
+@pytest.mark.parametrize(("holds", "code"), [(True, 0), (None, 0), (False, 1)])
+def test_check_prints_verdicts_and_ends_with_1_if_one_fails(call, monkeypatch, holds, code):
+    verdict = Verdict(claim="states are freed", holds=holds, detail="10 bytes per state")
+    monkeypatch.setattr(cli, "check_fmu", lambda *_, **__: [verdict])
+    result = call("check", "some.fmu")
+    assert result.exit_code == code
+    assert "10 bytes per state" in result.stdout
+    if code:
+        assert "some.fmu: it does not hold that states are freed" in one_sentence(result)
+    parsed = json.loads(call("check", "some.fmu", "--json").stdout)
+    assert parsed["states are freed"]["holds"] is holds
+
+
+def test_check_of_no_fmu_ends_with_2(call):
+    result = call("check", "missing.fmu")
+    assert result.exit_code == 2
+    assert "there is no such FMU file" in one_sentence(result)
 
 
 def test_build_writes_fmus_and_their_system_and_leaves_them_alone(call, tmp_path):

@@ -3,7 +3,10 @@
 from pythonfmu.builder import FmuBuilder
 
 slave = '''
+import ctypes
+import os
 import pickle
+import time as time_module
 
 from pythonfmu import Boolean, Fmi2Causality, Fmi2Slave, Fmi2Variability, Integer, Real, String
 from pythonfmu.enums import Fmi2Status
@@ -53,6 +56,8 @@ class {name}(Fmi2Slave):
             return False
         if self.trouble == 2 and time > 0.5:
             raise ValueError("broken axle")
+        if self.trouble in {{5, 6, 7, 8, 9}} and time > 0.5 and self.fuse():
+            self.misbehave()
         start = (self.last_force if self.linear_inputs else self.force) / self.mass
         end = self.force / self.mass
         self.x += step * self.v + step**2 * (2.0 * start + end) / 6.0
@@ -60,7 +65,29 @@ class {name}(Fmi2Slave):
         self.last_force, self.steps, self.moving = self.force, self.steps + 1, True
         return True
 
+    def fuse(self):
+        """With a label: whether the file of that name was not there, which is now."""
+        if not self.label:
+            return True
+        if os.path.exists(self.label):
+            return False
+        open(self.label, "w").close()
+        return True
+
+    def misbehave(self):
+        if self.trouble == 5:
+            os.abort()
+        if self.trouble == 6:
+            ctypes.string_at(0)
+        if self.trouble == 7:
+            os._exit(7)
+        if self.trouble == 8:
+            time_module.sleep(3600.0)
+        self.x = float("nan")
+
     def _get_fmu_state(self):
+        if self.trouble == 10:
+            self.hoard = getattr(self, "hoard", []) + [bytearray(10000)]
         kept = ("x", "v", "force", "last_force", "steps", "moving")
         return State((name, getattr(self, name)) for name in kept)
 

@@ -9,8 +9,9 @@ import pytest
 
 from orchestrator import Master, Recorder
 from railcosim.coupled_system import connect, indicators, master_settings
+from railcosim.errors import RunError
 from railcosim.motion import speed_law
-from railcosim.passage import build_for
+from railcosim.passage import build_for, run_passage
 from railcosim.scenario_file import read_scenario
 from tests.throwing import Throwing
 
@@ -28,6 +29,21 @@ def single(position):
 
 def periodic(position):
     return haversine((position - FLAT + CIRCUMFERENCE / 2) % CIRCUMFERENCE - CIRCUMFERENCE / 2)
+
+
+def test_an_explicit_run_that_cannot_work_is_refused():
+    """It would end with 60 MN where the truth is 234 kN."""
+    scenario = read_scenario(None, ("master.algorithm=jacobi", "master.step=1e-4"))
+    with pytest.raises(RunError, match=r"gain of 0\.5\d+ over a step of 0\.0001 s.*newton"):
+        run_passage(scenario)
+
+
+def test_isolated_fmus_give_the_same_passage_bit_for_bit():
+    scenario = read_scenario(None, ("run.approach=0.2", "run.departure=0.1"))
+    inside, outside = run_passage(scenario), run_passage(scenario, timeout=60.0)
+    assert inside.sizes["time"] > 100
+    for name in ("time", "contact_force", "rail_displacement", "gap"):
+        assert inside[name].to_numpy().tobytes() == outside[name].to_numpy().tobytes(), name
 
 
 # figures of the paper, and those of an independent full finite element solution

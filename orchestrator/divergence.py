@@ -1,0 +1,103 @@
+"""Whether an explicit coupling still follows the values that it takes from the past."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from .errors import DivergenceError
+from .participant import Vector
+
+window = 16
+"""Accepted steps that are looked at together."""
+
+unresolved = 0.25
+"""A miss is large when it exceeds this share of the value's own range within the window.
+
+A wave of eight steps per period that is extrapolated, or of twelve that is held, is missed so.
+"""
+
+quiet = 1e-3
+"""Misses below this, over the nominal value, are left alone."""
+
+diverging = 100.0
+"""Growth of unresolved misses, window after window without a pause, that ends the run."""
+
+fewest_windows = 4
+"""An impact is unresolved for one or two windows; it takes more than that to diverge."""
+
+lasting_windows = 20
+"""Unresolved misses that last so long are worth a warning."""
+
+
+class DivergenceMonitor:
+    """Follows by how much the torn values of a loop miss what was prescribed for them.
+
+    In a run that resolves its values the miss is small against their own variation. In one that
+    diverges it is as large, because the values jump about from step to step, and it grows.
+
+    Parameters
+    ----------
+    names : sequence of str
+        Torn values, as ``participant.variable``.
+    nominal : numpy.ndarray, shape (n,)
+        Their scale.
+    """
+
+    def __init__(self, names: Sequence[str], nominal: Vector) -> None:
+        self._names = tuple(names)
+        self._nominal = nominal
+        self._misses = np.zeros((window, len(self._names)))
+        self._values = np.zeros((window, len(self._names)))
+        self._count = 0
+        self._restarted = True
+        self._streak: list[float] = []
+        self.warning = ""
+
+    def restart(self) -> None:
+        """Pass over the next step: nothing smooth leads to it."""
+        self._restarted = True
+
+    def accept(self, prescribed: Vector, computed: Vector, time: float) -> None:
+        """Look at an accepted step that began at `time` [s].
+
+        Raises
+        ------
+        DivergenceError
+            When the miss has been large and growing for several windows.
+        """
+        if self._restarted:
+            self._restarted = False
+            return
+        np.subtract(computed, prescribed, out=self._misses[self._count])
+        self._values[self._count] = computed
+        self._count += 1
+        if self._count == window:
+            self._count = 0
+            self._examine(time)
+
+    def _examine(self, time: float) -> None:
+        misses = np.abs(self._misses).max(axis=0)
+        scaled = misses / self._nominal
+        large = (scaled > quiet) & (misses > unresolved * np.ptp(self._values, axis=0))
+        if not large.any():
+            self._streak.clear()
+            return
+        worst = int(np.argmax(np.where(large, scaled, 0.0)))
+        name, miss = self._names[worst], float(scaled[worst])
+        del self._streak[:-lasting_windows]
+        self._streak.append(miss)
+        smallest = min(self._streak[: 1 - fewest_windows], default=miss)
+        if miss > diverging * smallest:
+            raise DivergenceError(
+                f"The explicit algorithm diverges: {name} missed the value expected of it by "
+                f"{miss:.3g} times its nominal value {self._nominal[worst]:.3g} shortly before "
+                f"t = {time:.9g} s, {miss / smallest:.3g} times as much as "
+                f"{window * len(self._streak)} steps earlier; use the algorithm newton or a "
+                "smaller step."
+            )
+        if len(self._streak) > lasting_windows and not self.warning:
+            self.warning = (
+                f"The steps of the explicit algorithm are too large for {name}, which jumps about "
+                f"from step to step around t = {time:.9g} s by {miss:.3g} times its nominal "
+                f"value {self._nominal[worst]:.3g}; use the algorithm newton or a smaller step."
+            )
