@@ -44,7 +44,7 @@ def summary_table(summary: Summary, title: str) -> Table:
         ("time without contact", summary.loss_of_contact_time, 1e3, "ms"),
         ("largest sleeper displacement", summary.max_sleeper_displacement, 1e3, "mm"),
         (
-            "largest bending moment in the middle of the struck bay",
+            "largest bending moment in the struck bay",
             summary.peak_bending_moment_midspan,
             1e-3,
             "kN m",
