@@ -7,13 +7,13 @@ from pathlib import Path
 
 from fmpy.fmi2 import fmi2LastSuccessfulTime
 
+from .described import DescribedFmu
 from .errors import ParticipantError
-from .fmu_description import StartValue, read_fmu
+from .fmu_description import StartValue
 from .fmu_instance import FmuInstance
 from .fmu_log import FmuLog
 from .fmu_values import Reader, Writer, write_start_values
-from .participant import OK, InputShape, Status, StatusKind, Variable, Vector
-from .units import Unit
+from .participant import OK, InputShape, Status, StatusKind, Vector
 
 logger = logging.getLogger(__name__)
 
@@ -21,7 +21,7 @@ linear_inputs = "linear_inputs"
 """Boolean parameter of FMUs that can take their inputs as straight lines over the step."""
 
 
-class FmuParticipant:
+class FmuParticipant(DescribedFmu):
     """Participant that drives an FMU through fmpy's raw functions.
 
     The file is read and checked at once; it is unpacked and loaded by `instantiate`.
@@ -48,7 +48,7 @@ class FmuParticipant:
         name: str | None = None,
         start_values: Mapping[str, StartValue] | None = None,
     ) -> None:
-        self._description = read_fmu(Path(path))
+        super().__init__(path)
         self._start_values = dict(start_values or {})
         self._description.check_start_values(self._start_values)
         self.name = name if name is not None else self._description.model_name
@@ -58,36 +58,6 @@ class FmuParticipant:
         self._instance: FmuInstance | None = None
         self._shape_values: dict[str, StartValue] = {}
         self._when: tuple[float | None, float | None] = (None, None)
-
-    @property
-    def variables(self) -> Mapping[str, Variable]:
-        """Every variable by name."""
-        return self._description.variables
-
-    @property
-    def units(self) -> Mapping[str, Unit]:
-        """Every unit that it defines in SI base units, by name."""
-        return self._description.units
-
-    @property
-    def settable(self) -> frozenset[str]:
-        """Names of the variables that take a start value."""
-        return self._description.settable
-
-    @property
-    def can_save_state(self) -> bool:
-        """Whether it claims canGetAndSetFMUstate."""
-        return self._description.can_save_state
-
-    @property
-    def can_serialise_state(self) -> bool:
-        """Whether it claims canSerializeFMUstate."""
-        return self._description.can_serialise_state
-
-    @property
-    def can_vary_step(self) -> bool:
-        """Whether it claims canHandleVariableCommunicationStepSize."""
-        return self._description.can_vary_step
 
     @property
     def messages(self) -> Sequence[str]:

@@ -3,17 +3,18 @@
 import json
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from math import nan
 from pathlib import Path
 
 import numpy as np
 
+from .described import DescribedFmu
 from .errors import ParticipantError, SettingsError
 from .fmu import FmuParticipant
 from .fmu_description import StartValue
-from .frames import Operation, Report, experiment, number, sized_number, step_times
-from .participant import OK, InputShape, Status, StatusKind, Variable, Vector
+from .frames import Operation, Report, experiment, number, step_times
+from .participant import OK, InputShape, Status, StatusKind, Vector
+from .way_back import Point, deserialising, way_to
 from .worker_process import WorkerLostError, WorkerProcess
 
 logger = logging.getLogger(__name__)
@@ -25,29 +26,7 @@ snapshot_interval = 100
 """Steps from one serialised state to the next: so many are repeated after a crash at most."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Point:
-    """A state of the FMU as the way that leads to it.
-
-    Attributes
-    ----------
-    before : Point or None
-        Where it comes from; None where `data` holds the state.
-    operation : bytes
-        What leads here from there.
-    steps : int
-        Steps since the last serialised state.
-    data : bytes
-        The serialised state, if this is one.
-    """
-
-    before: "Point | None"
-    operation: bytes = b""
-    steps: int = 0
-    data: bytes = b""
-
-
-class IsolatedParticipant:
+class IsolatedParticipant(DescribedFmu):
     """Participant that drives an FMU in a process of its own.
 
     What has no answer (inputs, saving, going back) is sent together with the next call that has
@@ -92,6 +71,7 @@ class IsolatedParticipant:
     ) -> None:
         if not timeout > 0.0:
             raise SettingsError(f"timeout = {timeout} s must be positive.")
+        super().__init__(path)
         self._path, self._timeout = Path(path), timeout
         self._start_values = dict(start_values or {})
         # Never instantiated: it knows the file and decides on the shape of the inputs.
@@ -113,26 +93,6 @@ class IsolatedParticipant:
         self._states: dict[int, Point | None] = {}
         self._numbers = 0
         self._crashed_at: float | None = None
-
-    @property
-    def variables(self) -> Mapping[str, Variable]:
-        """Every variable by name."""
-        return self._described.variables
-
-    @property
-    def can_save_state(self) -> bool:
-        """Whether it claims canGetAndSetFMUstate."""
-        return self._described.can_save_state
-
-    @property
-    def can_serialise_state(self) -> bool:
-        """Whether it claims canSerializeFMUstate."""
-        return self._described.can_serialise_state
-
-    @property
-    def can_vary_step(self) -> bool:
-        """Whether it claims canHandleVariableCommunicationStepSize."""
-        return self._described.can_vary_step
 
     @property
     def input_shape(self) -> InputShape:
@@ -259,7 +219,7 @@ class IsolatedParticipant:
     def deserialise(self, data: bytes) -> object:
         """Return a new handle of the state in `data`."""
         self._numbers += 1
-        self._require(self._ask(_deserialise(self._numbers, data), "deserialising a state"))
+        self._require(self._ask(deserialising(self._numbers, data), "deserialising a state"))
         self._states[self._numbers] = Point(before=None, data=data)
         return self._numbers
 
@@ -336,8 +296,8 @@ class IsolatedParticipant:
                 way = self._setup
                 for state, point in self._states.items():
                     if point is not None:
-                        way += _way_to(point) + bytes([Operation.SAVE]) + number.pack(state)
-                report = worker.ask(way + _way_to(confirmed) + request)
+                        way += way_to(point) + bytes([Operation.SAVE]) + number.pack(state)
+                report = worker.ask(way + way_to(confirmed) + request)
                 incident = (
                     f"{self.name}: {reason} {where}; it was started anew and went on from there, "
                     f"{confirmed.steps} steps after its last serialised state."
@@ -378,19 +338,3 @@ class IsolatedParticipant:
             inputs=inputs if time is not None else None,
             messages=self._messages,
         )
-
-
-def _deserialise(state: int, data: bytes) -> bytes:
-    return bytes([Operation.DESERIALISE]) + sized_number.pack(state, len(data)) + data
-
-
-def _way_to(point: Point) -> bytes:
-    """Return the operations that lead to `point` from the serialised state before it."""
-    operations = []
-    while point.before is not None:
-        operations.append(point.operation)
-        point = point.before
-    start = _deserialise(0, point.data)
-    for operation in (Operation.RESTORE, Operation.RELEASE):
-        start += bytes([operation]) + number.pack(0)
-    return start + b"".join(reversed(operations))
