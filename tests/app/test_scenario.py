@@ -46,8 +46,10 @@ def test_the_leading_wheel_starts_ahead_of_a_flat_on_another_wheel():
 
 
 def test_every_wheel_may_use_the_whole_track():
-    Scenario(vehicle=Vehicle(wheels=1), flat=Flat(position=16.0), run=Run(approach=16.0))
-    Scenario(flat=Flat(position=16.5), run=Run(departure=16.0))
+    alone = Scenario(vehicle=Vehicle(wheels=1), flat=Flat(position=16.0), run=Run(approach=16.0))
+    assert alone.start_position == 0.0
+    bogie = Scenario(flat=Flat(position=16.5), run=Run(departure=16.0))
+    assert bogie.start_position + bogie.distance == pytest.approx(bogie.track.length, abs=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -80,7 +82,8 @@ def test_following_the_remedy_of_a_run_that_is_too_long_is_accepted(section):
 
 
 def test_a_round_wheel_needs_no_fitting_flat():
-    Scenario(flat=Flat(shape="none", length=40.0))
+    round_wheel = Scenario(flat=Flat(shape="none", length=40.0))
+    assert round_wheel.flat.length > round_wheel.track.length
 
 
 def test_more_modes_than_degrees_of_freedom_are_refused():

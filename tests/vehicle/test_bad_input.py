@@ -86,7 +86,9 @@ def test_raised_metal_must_have_room_to_roll():
 
 
 def test_round_vehicle_ignores_the_numbers_of_its_flat():
-    build(shape="none", length=100.0, depth=3.0, wheel=7)
+    model = build(shape="none", length=100.0, depth=3.0, wheel=7)
+    model.initialise(0.0)
+    assert model.contact_force == pytest.approx(model.parameters.static_wheel_load, rel=1e-12)
 
 
 @pytest.mark.parametrize(
