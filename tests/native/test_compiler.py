@@ -1,5 +1,6 @@
 """The libraries come out the same wherever they are compiled, for every platform."""
 
+import re
 import subprocess
 from pathlib import Path
 
@@ -78,3 +79,13 @@ def test_program(tmp_path):
     program.write_bytes(compile_program("vehicle", this_target(), main=source))
     program.chmod(0o755)
     assert subprocess.run([program], check=False).returncode == 0
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_nothing_but_the_c_library_is_needed(model):
+    """Names of libraries stand in a library as they are."""
+    target = this_target()
+    if not target.endswith("linux"):
+        pytest.skip("looks into libraries for Linux")
+    library = compile_library(model, target, name="Model")
+    assert set(re.findall(rb"lib[\w+-]+\.so[.\d]*", library)) == {b"libc.so.6", b"libm.so.6"}

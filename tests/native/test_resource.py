@@ -81,6 +81,22 @@ def test_structure_that_makes_no_sense(libraries, structure):
     refuse(libraries["vehicle"], pack(sections), "how many wheels")
 
 
+@pytest.mark.parametrize("value", [0.0, -0.65, np.nan, np.inf])
+def test_track_that_cannot_be(libraries, value):
+    structure = np.array([1, 0, 4, 2, 3, 8], dtype=np.int64)
+    numbers = np.array([value, 46.0, 8e7, 1e4, 3e7, 3e4])
+    sections = {"model": b"Track", "structure": structure, "numbers": numbers}
+    refuse(libraries["track"], pack(sections), r"resource describes a track that cannot be")
+
+
+@pytest.mark.parametrize(("place", "value"), [(0, 0), (2, 1), (4, 0), (5, 7), (5, 0), (1, -1)])
+def test_size_that_cannot_be(libraries, place, value):
+    structure = np.array([1, 0, 4, 2, 3, 8], dtype=np.int64)
+    structure[place] = value
+    sections = {"model": b"Track", "structure": structure}
+    refuse(libraries["track"], pack(sections), "how large the track is")
+
+
 def test_missing_start_values(libraries):
     sections = {"model": b"Vehicle", "structure": np.array([2], dtype=np.int64)}
     refuse(libraries["vehicle"], pack(sections), "numbers named 'start'")

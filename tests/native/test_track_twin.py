@@ -86,7 +86,7 @@ def test_many_steps(track_pair, short_track, linear):
 @pytest.mark.parametrize(
     ("values", "pairs", "residual"),
     [
-        ({"ballast_damping": 1e5, "pad_damping": 4e4}, 30, True),
+        ({"ballast_damping": 3e5, "pad_damping": 4e4}, 30, True),
         ({"sleeper_spacing": 0.6, "elements_per_bay": 1}, 12, True),
         ({}, 20, False),
     ],
@@ -98,6 +98,8 @@ def test_other_tracks(track_pair, values, pairs, residual):
         parameters, wheels=1, gauges=1, mode_pairs=pairs, residual_flexibility=residual
     )
     pair = track_pair(parameters, resource, gauge=2.1)
+    real = np.count_nonzero(pair.reduced.weight == 1.0)
+    assert real == 18 if "ballast_damping" in values else real == 0
     positions = np.array([2.0])
     pair.start(positions, np.array([STATIC_LOAD]))
     assert_alike(pair.outputs())
@@ -135,11 +137,11 @@ def test_refused_steps_change_nothing(track_pair, short_track, group, values, me
     assert pair.native.state.tobytes() == before.tobytes()
 
 
-@pytest.mark.parametrize("step", [0.0, -1e-4, np.nan, np.inf])
+@pytest.mark.parametrize("step", [0.0, -1e-4, np.nan, np.inf, 1e300])
 def test_steps_that_are_none(track_pair, short_track, step):
     pair = track_pair(short_track)
     pair.start(np.array([4.5, 2.7]), np.full(2, STATIC_LOAD))
-    with pytest.raises(DiscardedError, match="step size"):
+    with pytest.raises(DiscardedError, match=r"step size|parts of"):
         pair.native.step(0.0, step)
     with pytest.raises(DiscardedError, match="does not continue"):
         pair.native.step(1e-3, 1e-4)

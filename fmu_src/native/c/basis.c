@@ -7,6 +7,7 @@
 enum { WHEELS, GAUGES, BAYS, ELEMENTS_PER_BAY, MODES, HALF, SIZES };
 enum { SPACING, SHEAR_PARAMETER, PAD_K, PAD_C, BALLAST_K, BALLAST_C, NUMBERS };
 
+#define TINY 1e-12 /* lengths and stiffnesses are larger, in any unit */
 #define MOST 1000000 /* more of anything is a damaged resource, and its square fits in a size_t */
 
 static int sizes_fit(const int64_t *size)
@@ -29,6 +30,10 @@ rc_status rc_read_basis(rc_model *model, rc_basis *basis)
     const double *number = rc_require_section(model, "numbers", NUMBERS);
     if (number == NULL)
         return RC_ERROR;
+    for (size_t i = 0; i < NUMBERS; ++i)
+        if (!(isfinite(number[i]) && number[i] >= (i == PAD_C || i == BALLAST_C ? 0.0 : TINY)))
+            return rc_fail(model, RC_ERROR, "the resource describes a track that cannot be (number "
+                                            "%zu is %g); build the FMU again", i + 1, number[i]);
     basis->wheels = (size_t)size[WHEELS];
     basis->gauges = (size_t)size[GAUGES];
     basis->supports = (size_t)size[BAYS] - 1;

@@ -3,10 +3,8 @@
  * What has the length of a row is worked out once a step; a host that repeats the step with other
  * forces pays for small matrices and for the new modal state.
  */
-#include <math.h>
 #include <string.h>
 
-#include "dense.h"
 #include "rows.h"
 #include "track.h"
 
@@ -40,6 +38,25 @@ static int serves(const rc_track *track, const double *dynamic, double step, int
            memcmp(op->start, dynamic, rc_count_state(&track->basis) * sizeof(double)) == 0;
 }
 
+/* The modal load of the increments alone. */
+static void add_increments(double *load, const rc_basis *basis, const double *increment)
+{
+    const double *rows[4];
+    double factors[4];
+    size_t count = 0;
+    memset(load, 0, basis->length * sizeof(double));
+    for (size_t support = 0; support < basis->supports; ++support) {
+        if (increment[support] != 0.0) {
+            rows[count] = rc_shape(basis, rc_ballast(basis, support));
+            factors[count++] = -increment[support];
+        }
+        if (count == 4 || support + 1 == basis->supports) {
+            rc_add_combination(load, rows, factors, count, basis->length);
+            count = 0;
+        }
+    }
+}
+
 /* The modal state that the step would end with if there were no forces at its end. */
 static void move_freely(rc_track *track, const rc_track_state *state)
 {
@@ -47,15 +64,8 @@ static void move_freely(rc_track *track, const rc_track_state *state)
     rc_operator *op = &track->operator_;
     const double *load = state->load;
     if (!op->linear) { /* the contact forces jump; the increments do not */
-        double *held = track->row;
-        memset(held, 0, basis->length * sizeof(double));
-        for (size_t support = 0; support < basis->supports; ++support) {
-            const double *row = rc_shape(basis, rc_ballast(basis, support));
-            const double factor = -state->increment[support];
-            if (factor != 0.0)
-                rc_add_combination(held, &row, &factor, 1, basis->length);
-        }
-        load = held;
+        add_increments(track->row, basis, state->increment);
+        load = track->row;
     }
     rc_multiply(op->free, op->exponential->decay, state->modal, basis->half);
     rc_multiply_add(op->free, op->exponential->start, load, basis->half);

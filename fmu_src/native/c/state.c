@@ -32,6 +32,8 @@ rc_status rc_restore(rc_model *model, const void *state)
     if (head.phase < RC_INSTANTIATED || head.phase > RC_STEPPING)
         return rc_fail(model, RC_ERROR, "these bytes are not a state of this instance");
     memcpy(model->state, saved, model->state_size);
+    for (size_t i = 1; i <= model->text_count; ++i)
+        model->texts[RC_TEXT_SIZE * i - 1] = '\0'; /* whatever the bytes are */
     memset(model->known, 0, model->kind->kind_count);
     model->stepped = 0;
     if (head.phase == RC_INSTANTIATED)

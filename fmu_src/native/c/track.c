@@ -50,6 +50,8 @@ static const rc_group_kind KINDS[] = {
     [LINEAR_INPUTS] = {"linear_inputs", RC_BOOLEAN, RC_PARAMETER, RC_ONE},
 };
 
+#define MOST_PARTS 1e6 /* of a step; half a minute of work */
+
 static rc_status open_track(rc_model *model)
 {
     rc_track *track = model->own;
@@ -193,8 +195,11 @@ static rc_status step_track(rc_model *model, double step)
     rc_track *track = model->own;
     if (check_inputs(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
+    if (step / RC_LONGEST_STEP > MOST_PARTS)
+        return rc_fail(model, RC_DISCARD, "track: a step of %g s is more than %g parts of %g s; use "
+                                          "a shorter step", step, MOST_PARTS, RC_LONGEST_STEP);
     if (!rc_advance_track(track, model->dynamic, step, rc_values(model, POSITION),
-                 rc_values(model, CONTACT_FORCE)))
+                          rc_values(model, CONTACT_FORCE)))
         return rc_fail(model, RC_DISCARD, "track: the state-dependent forces did not converge over "
                                           "a step of %.3g s; use a shorter step", step);
     track->last_step = step;

@@ -1,6 +1,5 @@
 /* The memory of a track, in one piece. */
 #include <stdlib.h>
-#include <string.h>
 
 #include "dense.h"
 #include "track.h"

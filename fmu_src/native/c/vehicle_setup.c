@@ -62,9 +62,9 @@ static rc_status check_parameters(rc_model *model)
         return rc_fail(model, RC_ERROR, "initial_position is %g m; it must be a finite number: "
                                         "give the start of wheel 1",
                        *rc_values(model, INITIAL_POSITION));
-    if (!(*rc_values(model, FLAT_WHEEL) >= 1.0))
-        return rc_fail(model, RC_ERROR, "flat wheel is %g; wheels are counted from 1",
-                       *rc_values(model, FLAT_WHEEL));
+    const double flat_wheel = *rc_values(model, FLAT_WHEEL);
+    if (!(flat_wheel >= 1.0 && flat_wheel <= INT32_MAX))
+        return rc_fail(model, RC_ERROR, "flat wheel is %g; wheels are counted from 1", flat_wheel);
     return RC_OK;
 }
 
