@@ -72,7 +72,7 @@ static void step(run *of, double size)
     double reached;
     rc_set_group(of->model, of->position, of->positions);
     rc_set_group(of->model, of->force, of->forces);
-    if (rc_step(of->model, of->time, size, &reached) != RC_OK)
+    if (rc_step(of->model, of->time, size, RC_AS_PARAMETER, &reached) != RC_OK)
         fail(rc_message(of->model));
     rc_get_group(of->model, of->displacement, of->result);
 }

@@ -8,6 +8,7 @@ import numpy as np
 OK, DISCARD, ERROR = range(3)
 REAL, INTEGER, BOOLEAN, TEXT = range(4)
 CONSTANT, PARAMETER, INPUT, OUTPUT = range(4)
+AS_PARAMETER, HELD, STRAIGHT = range(3)
 MESSAGE_SIZE = 2048
 TYPES = {float: REAL, int: INTEGER, bool: BOOLEAN, str: TEXT}
 
@@ -42,7 +43,8 @@ SIGNATURES = {
     "rc_set_group": (c_int, [c_void_p, c_size_t, c_void_p]),
     "rc_enter_initialisation": (c_int, [c_void_p, c_double]),
     "rc_exit_initialisation": (c_int, [c_void_p]),
-    "rc_step": (c_int, [c_void_p, c_double, c_double, c_void_p]),
+    "rc_step": (c_int, [c_void_p, c_double, c_double, c_int, c_void_p]),
+    "rc_jump": (c_int, [c_void_p]),
     "rc_state_size": (c_size_t, [c_void_p]),
     "rc_save": (None, [c_void_p, c_void_p]),
     "rc_restore": (c_int, [c_void_p, c_void_p]),
@@ -166,11 +168,14 @@ class NativeModel:
     def exit(self):
         self._check(self.library.rc_exit_initialisation(self.handle))
 
-    def step(self, time, step_size):
+    def step(self, time, step_size, shape=AS_PARAMETER):
         """Step, and return the last successful time."""
         reached = ctypes.byref(self._reached)
-        self._check(self.library.rc_step(self.handle, time, step_size, reached))
+        self._check(self.library.rc_step(self.handle, time, step_size, shape, reached))
         return self._reached.value
+
+    def jump(self):
+        self._check(self.library.rc_jump(self.handle))
 
     @property
     def reached(self):

@@ -7,7 +7,19 @@ from fmu_src.python.model_slave import LINEAR_INPUTS
 from fmu_src.python.track_variables import declare_track
 from fmu_src.python.vehicle_variables import declare_vehicle
 
-from .library import CONSTANT, INPUT, OUTPUT, PARAMETER, REAL, TEXT, TYPES, NativeError
+from .library import (
+    CONSTANT,
+    HELD,
+    INPUT,
+    OUTPUT,
+    PARAMETER,
+    REAL,
+    STRAIGHT,
+    TEXT,
+    TYPES,
+    NativeError,
+)
+from .twins import assert_alike
 
 STATIC_LOAD = 117_720.0
 SPEED = 40.0 / 3.6
@@ -176,3 +188,92 @@ def test_derivatives_need_a_step(native):
     vehicle.state = vehicle.state
     with pytest.raises(NativeError, match="restored"):
         vehicle.derivative(*arguments)
+
+
+def real_outputs(model):
+    for group in model.groups:
+        if group.causality == OUTPUT and group.type == REAL:
+            name = group.name.decode()
+            yield name.rpartition(".")[2], model.group(name)
+
+
+def assert_same_outputs(expected, found):
+    assert_alike(
+        (name, values, other)
+        for (name, values), (_, other) in zip(
+            real_outputs(expected), real_outputs(found), strict=True
+        )
+    )
+
+
+@pytest.fixture
+def moving(native):
+    """Makes equal instances in the middle of a run, and their next inputs."""
+
+    def make(model):
+        values = {"track": {"initial_speed": SPEED}, "vehicle": {"initial_position": 16.55}}
+        ends = {
+            "track": {"position": [4.53, 2.73], "contact_force": [1.5e5, 0.8e5]},
+            "vehicle": {"rail_displacement": [1.2e-3, 0.9e-3]},
+        }[model]
+        one = native(model, **values[model])
+        one.enter()
+        if model == "track":
+            one.set_group("wheel[#].position", [4.5, 2.7])
+        one.exit()
+        one.step(0.0, 3e-4)
+        return one, {f"wheel[#].{name}": np.array(end) for name, end in ends.items()}
+
+    return make
+
+
+def set_all(model, values):
+    for group, value in values.items():
+        model.set_group(group, value)
+
+
+@pytest.mark.parametrize("model", ["track", "vehicle"])
+@pytest.mark.parametrize("step", [2e-4, 1.3e-3])
+def test_held_inputs_are_a_jump_and_a_level_line(moving, model, step):
+    held, ends = moving(model)
+    jumped, _ = moving(model)
+    for instance in (held, jumped):
+        set_all(instance, ends)
+    held.step(held.time, step, HELD)
+    jumped.jump()
+    jumped.step(jumped.time, step, STRAIGHT)
+    assert_same_outputs(held, jumped)
+
+
+@pytest.mark.parametrize("model", ["track", "vehicle"])
+def test_a_jump_to_where_the_inputs_are_changes_nothing(moving, model):
+    one, _ = moving(model)
+    other, _ = moving(model)
+    other.jump()
+    assert other.time == one.time
+    assert_same_outputs(one, other)
+
+
+def test_the_parameter_is_the_shape_of_steps_that_name_none(native):
+    for linear, shape in ((False, HELD), (True, STRAIGHT)):
+        results = []
+        for named in (False, True):
+            vehicle = native("vehicle", linear_inputs=linear != named)
+            vehicle.enter()
+            vehicle.exit()
+            vehicle.set_group("wheel[#].rail_displacement", [1e-3, 0.0])
+            vehicle.step(0.0, 1e-3, *([shape] if named else []))
+            results.append(vehicle.group("wheel[#].displacement").tobytes())
+        assert results[0] == results[1]
+
+
+def test_jumps_that_are_refused(native, moving):
+    with pytest.raises(NativeError, match="after the initialisation"):
+        native("vehicle").jump()
+    for model, group in (("track", "contact_force"), ("vehicle", "rail_displacement")):
+        one, _ = moving(model)
+        one.set_group(f"wheel[#].{group}", [np.nan, 0.0])
+        before = one.state
+        with pytest.raises(NativeError, match="finite number"):
+            one.jump()
+        assert one.state.tobytes() == before.tobytes()

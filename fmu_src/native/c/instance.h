@@ -25,7 +25,8 @@ struct rc_class {
     /* Makes what follows from the parameters, which are final then; may be called again. */
     rc_status (*prepare)(rc_model *model);
     rc_status (*start)(rc_model *model);
-    rc_status (*step)(rc_model *model, double step);
+    rc_status (*step)(rc_model *model, double step, int linear);
+    rc_status (*jump)(rc_model *model);
     /* Outputs of a group. */
     void (*read)(rc_model *model, size_t group, double *values);
     /* Derivatives of all outputs, one block after the other as in `outputs`, after a step. */
@@ -61,6 +62,7 @@ struct rc_model {
     unsigned char *known;     /* of every group, whether its outputs are worked out */
     unsigned char *made_from; /* texts and parameters that `prepare` saw last */
     double *change;           /* seeds and derivatives */
+    int linear; /* the parameter linear_inputs */
     int prepared, stepped;
     void *own;
     char message[RC_MESSAGE_SIZE];

@@ -97,7 +97,8 @@ static int joins(double time, double present)
     return fabs(time - present) <= fmax(limit, TIME_RESOLUTION);
 }
 
-rc_status rc_step(rc_model *model, double time, double step, double *reached)
+rc_status rc_step(rc_model *model, double time, double step, rc_input_shape shape,
+                  double *reached)
 {
     *reached = model->head->time;
     if (model->head->phase != RC_STEPPING)
@@ -110,13 +111,25 @@ rc_status rc_step(rc_model *model, double time, double step, double *reached)
         return rc_fail(model, RC_DISCARD, "the step size is %g s; it must be a finite number "
                                           "above zero", step);
     model->stepped = 0; /* what derivatives need may be overwritten even if the step is refused */
-    const rc_status status = model->kind->step(model, step);
+    const rc_status status = model->kind->step(
+        model, step, shape == RC_AS_PARAMETER ? model->linear : shape == RC_STRAIGHT);
     if (status != RC_OK)
         return status;
     *reached = model->head->time = time + step;
     memset(model->known, 0, model->kind->kind_count);
     model->stepped = 1;
     return RC_OK;
+}
+
+rc_status rc_jump(rc_model *model)
+{
+    if (model->head->phase != RC_STEPPING)
+        return rc_fail(model, RC_ERROR, "inputs jump after the initialisation");
+    model->stepped = 0;
+    const rc_status status = model->kind->jump(model);
+    if (status == RC_OK)
+        memset(model->known, 0, model->kind->kind_count);
+    return status;
 }
 
 rc_status rc_get_group(rc_model *model, size_t number, double *values)

@@ -91,9 +91,19 @@ RC_API rc_status rc_set_group(rc_model *model, size_t group, const double *value
 RC_API rc_status rc_enter_initialisation(rc_model *model, double start_time);
 RC_API rc_status rc_exit_initialisation(rc_model *model);
 
+/* How the inputs run over a step: as the parameter linear_inputs says, held at their values, or on
+ * straight lines from the last values to the present ones. */
+typedef enum { RC_AS_PARAMETER, RC_HELD, RC_STRAIGHT } rc_input_shape;
+
 /* Moves on from `time` [s], where the model is, by `step` [s]. RC_DISCARD leaves everything as it
  * was. `reached` is where the model is afterwards (the last successful time). */
-RC_API rc_status rc_step(rc_model *model, double time, double step, double *reached);
+RC_API rc_status rc_step(rc_model *model, double time, double step, rc_input_shape shape,
+                         double *reached);
+
+/* Takes the inputs over without time passing, so that straight lines begin there. With it a host
+ * gives inputs by value and slope: set the values, rc_jump, set the values at the end of the step,
+ * rc_step with RC_STRAIGHT. */
+RC_API rc_status rc_jump(rc_model *model);
 
 /* The complete state is one block without pointers: a saved one is a copy of its bytes, good for
  * this instance or any other of the same resource in the same program. */

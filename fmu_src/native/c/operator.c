@@ -57,6 +57,32 @@ static void add_increments(double *load, const rc_basis *basis, const double *in
     }
 }
 
+void rc_load_track(rc_track *track, rc_track_state *state)
+{
+    const rc_basis *basis = &track->basis;
+    const size_t length = basis->length, half = basis->half;
+    double *dual = track->duals, *row = track->row;
+    const double *const rows[1] = {row};
+    add_increments(state->load, basis, state->increment);
+    for (size_t n = 0; n < half; ++n) {
+        dual[n] = basis->weight[n] * state->modal[n];
+        dual[half + n] = -basis->weight[n] * state->modal[half + n];
+    }
+    for (size_t i = 0; i < basis->wheels; ++i) {
+        const rc_rail_point *wheel = &track->points[i];
+        rc_modes_at(basis, wheel, wheel->shape, row);
+        rc_add_combination(state->load, rows, &state->force[i], 1, length);
+        double sum = rc_product(row, dual, length);
+        for (size_t j = 0; j < basis->wheels; ++j)
+            sum += rc_residual_between(basis, wheel, wheel->shape, &track->points[j],
+                                       track->points[j].shape) * state->force[j];
+        for (size_t s = 0; s < basis->supports; ++s)
+            if (state->increment[s] != 0.0)
+                sum -= rc_residual(basis, wheel, rc_ballast(basis, s)) * state->increment[s];
+        state->displacement[i] = sum;
+    }
+}
+
 /* The modal state that the step would end with if there were no forces at its end. */
 static void move_freely(rc_track *track, const rc_track_state *state)
 {

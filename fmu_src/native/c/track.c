@@ -108,7 +108,7 @@ static rc_status prepare(rc_model *model)
     track->per_wheel =
         supports < (double)track->basis.supports ? (size_t)supports : track->basis.supports;
     track->initial_speed = *rc_values(model, INITIAL_SPEED);
-    track->linear = *rc_values(model, LINEAR_INPUTS) != 0.0;
+    model->linear = *rc_values(model, LINEAR_INPUTS) != 0.0;
     if (!isfinite(track->initial_speed))
         return rc_fail(model, RC_ERROR, "track: initial_speed = %g m/s must be finite",
                        track->initial_speed);
@@ -190,19 +190,34 @@ int rc_advance_track(rc_track *track, double *dynamic, double step, const double
     return 1;
 }
 
-static rc_status step_track(rc_model *model, double step)
+static rc_status step_track(rc_model *model, double step, int linear)
 {
     rc_track *track = model->own;
     if (check_inputs(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
     if (step / RC_LONGEST_STEP > MOST_PARTS)
-        return rc_fail(model, RC_DISCARD, "track: a step of %g s is more than %g parts of %g s; use "
-                                          "a shorter step", step, MOST_PARTS, RC_LONGEST_STEP);
+        return rc_fail(model, RC_DISCARD,
+                       "track: a step of %g s is more than %g parts of %g s; use a shorter step",
+                       step, MOST_PARTS, RC_LONGEST_STEP);
+    track->linear = linear;
     if (!rc_advance_track(track, model->dynamic, step, rc_values(model, POSITION),
                           rc_values(model, CONTACT_FORCE)))
         return rc_fail(model, RC_DISCARD, "track: the state-dependent forces did not converge over "
                                           "a step of %.3g s; use a shorter step", step);
     track->last_step = step;
+    return RC_OK;
+}
+
+static rc_status jump_track(rc_model *model)
+{
+    rc_track *track = model->own;
+    rc_track_state state = rc_view_state(&track->basis, model->dynamic);
+    if (check_inputs(model, RC_DISCARD) != RC_OK)
+        return RC_DISCARD;
+    const size_t bytes = track->basis.wheels * sizeof(double);
+    memcpy(state.position, rc_values(model, POSITION), bytes);
+    memcpy(state.force, rc_values(model, CONTACT_FORCE), bytes);
+    rc_load_track(track, &state);
     return RC_OK;
 }
 
@@ -222,6 +237,7 @@ static const rc_class TRACK = {
     .prepare = prepare,
     .start = start,
     .step = step_track,
+    .jump = jump_track,
     .read = read_outputs,
     .derive = rc_derive_track,
     .release = release,

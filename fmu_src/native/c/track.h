@@ -40,7 +40,8 @@ typedef struct {
 typedef struct {
     rc_basis basis;
     rc_ballast_law law;
-    int state_dependent, linear;
+    int state_dependent;
+    int linear; /* of the last step */
     size_t per_wheel;
     double initial_speed;
     rc_rail_point *gauges, *points; /* (gauges), (wheels) */
@@ -90,6 +91,10 @@ int rc_solve_increments(rc_track *track, const double *forces);
  * Jacobian behind `change`, which track->products has. 0 if it is singular. */
 int rc_change_increments(rc_track *track, const double *forces, const double *force_change,
                          double *change);
+
+/* Makes modal loads and displacements follow positions and forces that have jumped; the wheels are
+ * at track->points. */
+void rc_load_track(rc_track *track, rc_track_state *state);
 
 /* Moves the state to the end of the step; 0 if the increments do not converge. */
 int rc_apply_operator(rc_track *track, rc_track_state *state, const double *forces);

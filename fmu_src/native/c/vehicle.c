@@ -64,7 +64,7 @@ static rc_status start_vehicle(rc_model *model)
     return RC_OK;
 }
 
-static rc_status step_vehicle(rc_model *model, double step)
+static rc_status step_vehicle(rc_model *model, double step, int linear)
 {
     rc_vehicle *own = model->own;
     const size_t bytes = rc_vehicle_count(own) * sizeof(double);
@@ -76,6 +76,7 @@ static rc_status step_vehicle(rc_model *model, double step)
     if (step / own->substep > MOST_SUBSTEPS)
         return rc_fail(model, RC_DISCARD, "a step of %g s is more than %g substeps of %g s; use a "
                                           "shorter step", step, MOST_SUBSTEPS, own->substep);
+    own->linear = linear;
     for (size_t i = 0; i < own->wheels; ++i) {
         const rc_way over = {.start = *from.start, .time = *from.time, .step = step,
                           .rail_start = own->linear ? from.rail[i] : rail[i],
@@ -96,6 +97,16 @@ static rc_status step_vehicle(rc_model *model, double step)
     memcpy(own->before, model->dynamic, bytes);
     memcpy(model->dynamic, own->after, bytes);
     own->last_step = step;
+    return RC_OK;
+}
+
+static rc_status jump_vehicle(rc_model *model)
+{
+    const rc_vehicle *own = model->own;
+    if (check_rail(model, RC_DISCARD) != RC_OK)
+        return RC_DISCARD;
+    memcpy(rc_vehicle_view(own, model->dynamic).rail, rc_values(model, RAIL_DISPLACEMENT),
+           own->wheels * sizeof(double));
     return RC_OK;
 }
 
@@ -163,6 +174,7 @@ static const rc_class VEHICLE = {
     .prepare = rc_prepare_vehicle,
     .start = start_vehicle,
     .step = step_vehicle,
+    .jump = jump_vehicle,
     .read = read_vehicle,
     .derive = derive_vehicle,
     .release = rc_release_vehicle,

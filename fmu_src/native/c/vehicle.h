@@ -26,7 +26,7 @@ typedef struct {
     rc_curve irregularity;
     rc_wheel wheel;
     double axle_base, initial_position, substep;
-    int linear;
+    int linear; /* of the last step */
     double *before, *after; /* dynamic values around the last step */
     double last_step;
 } rc_vehicle;

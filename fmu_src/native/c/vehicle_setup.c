@@ -96,7 +96,7 @@ rc_status rc_prepare_vehicle(rc_model *model)
     own->axle_base = *rc_values(model, AXLE_BASE);
     own->initial_position = *rc_values(model, INITIAL_POSITION);
     own->substep = *rc_values(model, SUBSTEP);
-    own->linear = *rc_values(model, LINEAR_INPUTS) != 0.0;
+    model->linear = *rc_values(model, LINEAR_INPUTS) != 0.0;
     own->flat = (rc_flat){.length = *rc_values(model, FLAT_LENGTH),
                           .depth = *rc_values(model, FLAT_DEPTH),
                           .position = *rc_values(model, FLAT_POSITION),
