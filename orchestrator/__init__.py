@@ -1,5 +1,7 @@
 """A co-simulation master for any FMUs, with rollback, event location and error control."""
 
+import logging
+
 from .coupling import Algorithm, Attempt, Coupling
 from .decision import Accept, Candidate, Cause, Decision, Failure, Landed, Refine, Reject
 from .errors import (
@@ -33,6 +35,9 @@ from .step_control import ErrorControl, FixedStep, StepController
 from .step_log import StepLog
 from .system import Connection, System
 from .units import Linear, Unit, convert
+
+# Who wants to see the messages adds a handler; warnings are in the outcome of a run, too.
+logging.getLogger(__name__).addHandler(logging.NullHandler())
 
 __all__ = [
     "OK",

@@ -109,7 +109,7 @@ class Master:
             self._initialise(exchange, clock, stop_time, cleanup)
             first = clock.plan(controller.first_step)
             if loop.rolls_back and self._settings.check_rollback:
-                check_rollback(loop.saved, first.start, first.size)
+                warnings += check_rollback(loop.saved, first.start, first.size)
             if not coupling.iterates:
                 warnings += self._review_loops(loop, exchange, blocks, first)
             reason = self._observe_loop(loop, interrupt, exchange)
@@ -130,20 +130,19 @@ class Master:
 
         A run that saves no states needs them here, so that they are checked first.
         """
+        warnings: list[str] = []
         if not loop.rolls_back:
             if not self._settings.check_rollback:
                 return []
             coupled = {n for block in blocks if block.unknowns.size for n in block.order}
             stages = [exchange.stages[place] for place in sorted(coupled)]
             able = [stage for stage in stages if stage.participant.can_save_state]
-            check_rollback(able, first.start, first.size)
+            warnings += check_rollback(able, first.start, first.size)
         gains = estimate_loop_gains(exchange, blocks, first.start, first.size)
-        warnings = review_loop_gains(
-            gains, first.size, extrapolates=self._algorithm.uses_prediction
-        )
-        for warning in warnings:
-            logger.warning("%s", warning)
-        return warnings
+        doubts = review_loop_gains(gains, first.size, extrapolates=self._algorithm.uses_prediction)
+        for doubt in doubts:
+            logger.warning("%s", doubt)
+        return warnings + doubts
 
     def _choose(self) -> list[str]:
         available = self._system.variables()

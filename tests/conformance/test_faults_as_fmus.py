@@ -208,6 +208,17 @@ def test_a_liar_is_named_at_the_start(json_of):
     assert "from t = 0 s" in line
 
 
+@pytest.mark.parametrize("options", [fixed, explicit], ids=["newton", "explicit"])
+def test_a_check_that_finds_nothing_out_is_not_passed_over(json_of, options):
+    """The step of the check and its halves fail, all steps after that work."""
+    answer = json_of(decay(fault=faults["error"], times=6), *options)
+    assert answer.exit_code == 0
+    (doubt,) = answer.stderr.splitlines()
+    assert doubt.startswith("railcosim: Whether body restores saved states could not be checked: ")
+    assert "body: the step ended with fmi2Error at t = 0 s" in doubt
+    assert json.loads(answer.stdout)["final"]["body.y"] == pytest.approx(np.exp(-1.0), abs=1e-4)
+
+
 def test_one_without_saved_states_steps_last_and_once(json_of):
     """It hangs behind a swinging mass whose steps are rejected again and again."""
     text = swinging(trouble=1, behind="ConformanceOnward.fmu")

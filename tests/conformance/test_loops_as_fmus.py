@@ -1,6 +1,8 @@
 """A spring that is pushed and a compliance in series close an algebraic loop of gain k D."""
 
 import json
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -70,3 +72,13 @@ def test_extrapolation_is_refused_from_a_third_on(call, gain):
         assert (answer.exit_code, answer.stdout) == (1, "")
         (line,) = answer.stderr.splitlines()
         assert "use the algorithm newton" in line
+
+
+def test_a_doubt_is_said_once(put):
+    """Also where nobody listens to the log: in a process of its own."""
+    path = put(loop(0.9, algorithm="gauss_seidel", extrapolate=False))
+    command = [sys.executable, "-m", "railcosim", "cosim", str(path), "--step", "0.01", "--json"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("railcosim: An explicit algorithm is in doubt, because the loop through")
+    assert json.loads(done.stdout)["end_time"] == 1.0
