@@ -54,6 +54,14 @@ def test_observed_order(run, split, case):
     assert observed == pytest.approx(np.full(observed.shape, float(order)), abs=slack)
 
 
+@pytest.mark.parametrize(("split", "unknowns"), list(zip(splits, (1, 2, 1), strict=True)))
+def test_a_linear_system_takes_one_jacobian(run, split, unknowns):
+    """Two sweeps a step at most, then: one to see the residual and one to be rid of it."""
+    result = run(oscillator(split), step=0.1)
+    steps = result.attrs["steps_accepted"]
+    assert result.attrs["iterations"] <= 2 * steps + unknowns
+
+
 @pytest.mark.parametrize(
     "split", [splits[0], *(pytest.param(split, marks=pytest.mark.slow) for split in splits[1:])]
 )
