@@ -27,7 +27,7 @@ from .newton import Newton
 from .observers import Observer
 from .outcome import Outcome, Statistics, StopReason, Switch
 from .participant import OK, InputShape, Participant, Status, StatusKind, Variable, Vector
-from .recorder import Recorder
+from .recorder import LastPoint, Recorder
 from .settings import MasterSettings
 from .step_control import ErrorControl, FixedStep, StepController
 from .step_log import StepLog
@@ -56,6 +56,7 @@ __all__ = [
     "InputShape",
     "IsolatedParticipant",
     "Landed",
+    "LastPoint",
     "Linear",
     "LoopGainError",
     "Master",

@@ -65,6 +65,10 @@ def fixed_point(block: Block, tolerance: float, max_iterations: int) -> FixedPoi
     )
 
 
+most_step_sizes = 256
+"""Step sizes whose Jacobians are kept; a run that never repeats a size keeps no more."""
+
+
 class NewtonCoupling:
     """The iteration for one system, with the Jacobians kept from step to step.
 
@@ -118,7 +122,10 @@ class NewtonCoupling:
 
     def commit(self) -> None:
         """Keep the Jacobians of the last attempt."""
-        self._last = self._by_step_size[self._step_size] = self._learned
+        known = self._by_step_size
+        self._last = known[self._step_size] = self._learned
+        if len(known) > most_step_sizes:
+            del known[next(iter(known))]
 
     def forget(self) -> None:
         """Find the Jacobians anew in the next attempt."""

@@ -198,7 +198,7 @@ def cosim(
         )
         if output is not None:
             check_writable(output, option="--output", suffixes=DATA_SUFFIXES)
-        result = _followed_cosim(system, options, quiet=quiet)
+        result = _followed_cosim(system, options, with_histories=output is not None, quiet=quiet)
         if output is not None:
             write_dataset(result, output)
         if as_json:
@@ -272,12 +272,16 @@ def _followed_run(
         return run_passage(case, fmus=fmus.value, timeout=timeout, notify=_say, report=report)
 
 
-def _followed_cosim(system: Path, options: CosimOptions, *, quiet: bool) -> xr.Dataset:
+def _followed_cosim(
+    system: Path, options: CosimOptions, *, with_histories: bool, quiet: bool
+) -> xr.Dataset:
     """Do the same for a system."""
     if quiet:
-        return run_system(system, options)
+        return run_system(system, options, with_histories=with_histories)
     with progress_bar(Console(stderr=True), system.stem) as report:
-        return run_system(system, options, notify=_say, report=report)
+        return run_system(
+            system, options, with_histories=with_histories, notify=_say, report=report
+        )
 
 
 def _check_complete(result: xr.Dataset) -> None:

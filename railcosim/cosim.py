@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from threadpoolctl import threadpool_limits
 
 import orchestrator
-from orchestrator import Master, Recorder
+from orchestrator import LastPoint, Master, Recorder
 from orchestrator.ssp import open_system
 
 from .cosim_result import label_result
@@ -31,6 +31,7 @@ def run_system(
     path: Path,
     options: CosimOptions,
     *,
+    with_histories: bool = True,
     notify: Callable[[str], None] | None = None,
     report: Callable[[Progress], None] | None = None,
 ) -> xr.Dataset:
@@ -42,6 +43,8 @@ def run_system(
         An .ssp or .ssd file.
     options : CosimOptions
         What counts more than what the file says.
+    with_histories : bool
+        Whether outputs are kept over time, or their last values only.
     notify : callable, optional
         Told in a few words of parameter values that no variable has.
     report : callable, optional
@@ -65,7 +68,8 @@ def run_system(
             for name in opened.unused:
                 if notify is not None:
                     notify(f"no variable takes the parameter value {name}: it is not used")
-            return _run(opened, options, notify, report)
+            recorder = Recorder() if with_histories else LastPoint()
+            return _run(opened, options, recorder, notify, report)
     except orchestrator.InputError as error:
         raise InputError(str(error)) from error
     except orchestrator.RunError as error:
@@ -75,6 +79,7 @@ def run_system(
 def _run(
     opened: AssembledSystem,
     options: CosimOptions,
+    recorder: Recorder,
     notify: Callable[[str], None] | None,
     report: Callable[[Progress], None] | None,
 ) -> xr.Dataset:
@@ -84,7 +89,6 @@ def _run(
     control = settings.make_controller(stop - start)
     if report is not None:
         control = WatchedControl(control, stop_time=stop, report=report)
-    recorder = Recorder()
     master = Master(
         opened.system,
         settings,
