@@ -21,6 +21,7 @@ from .errors import (
 from .explicit import Explicit
 from .fmu import FmuParticipant
 from .fmu_check import Verdict, check_fmu
+from .fmu_source import FmuSource
 from .isolated import IsolatedParticipant
 from .master import Master
 from .newton import Newton
@@ -51,6 +52,7 @@ __all__ = [
     "FixedStep",
     "FmuError",
     "FmuParticipant",
+    "FmuSource",
     "InitialisationError",
     "InputError",
     "InputShape",

@@ -31,6 +31,7 @@ def run_system(
     path: Path,
     options: CosimOptions,
     *,
+    timeout: float | None = None,
     with_histories: bool = True,
     notify: Callable[[str], None] | None = None,
     report: Callable[[Progress], None] | None = None,
@@ -43,6 +44,8 @@ def run_system(
         An .ssp or .ssd file.
     options : CosimOptions
         What counts more than what the file says.
+    timeout : float, optional
+        Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
     with_histories : bool
         Whether outputs are kept over time, or their last values only.
     notify : callable, optional
@@ -64,7 +67,10 @@ def run_system(
     """
     try:
         # The FMUs share the process and its BLAS: their matrices are too small for more threads.
-        with open_system(path) as opened, threadpool_limits(limits=1, user_api="blas"):
+        with (
+            open_system(path, timeout=timeout) as opened,
+            threadpool_limits(limits=1, user_api="blas"),
+        ):
             for name in opened.unused:
                 if notify is not None:
                     notify(f"no variable takes the parameter value {name}: it is not used")
