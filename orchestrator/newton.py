@@ -1,5 +1,6 @@
 """Implicit coupling: steps are repeated until inputs and outputs agree at the end of the step."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .block import Block
@@ -99,7 +100,7 @@ class NewtonCoupling:
         """Try the step, starting from the predicted values."""
         del last  # the prediction is the better guess
         iterations, residual_norm = 1, 0.0
-        known = self._by_step_size.get(step_size, self._last)
+        known = self.known(step_size)
         self._step_size, self._learned = step_size, list(known)
         for place, (block, equations) in enumerate(self._equations):
             unknowns = predicted[block.unknowns]
@@ -126,6 +127,15 @@ class NewtonCoupling:
         self._last = known[self._step_size] = self._learned
         if len(known) > most_step_sizes:
             del known[next(iter(known))]
+
+    def known(self, step_size: float) -> Sequence[Matrix | None]:
+        """Return the Jacobians of that size, else those used last."""
+        return self._by_step_size.get(step_size, self._last)
+
+    def learn(self, jacobians: Sequence[Matrix | None]) -> None:
+        """Take these as those used last."""
+        self._by_step_size.clear()
+        self._last = list(jacobians)
 
     def forget(self) -> None:
         """Find the Jacobians anew in the next attempt."""
