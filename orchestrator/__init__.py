@@ -23,13 +23,14 @@ from .errors import (
 from .explicit import Explicit
 from .fmu import FmuParticipant
 from .fmu_check import Verdict, check_fmu
+from .fmu_source import FmuSource
 from .isolated import IsolatedParticipant
 from .master import Master
 from .newton import Newton
 from .observers import Observer
 from .outcome import Outcome, Statistics, StopReason, Switch
 from .participant import OK, InputShape, Participant, Status, StatusKind, Variable, Vector
-from .recorder import Recorder
+from .recorder import LastPoint, Recorder
 from .settings import MasterSettings
 from .step_control import ErrorControl, FixedStep, StepController
 from .step_log import StepLog
@@ -56,11 +57,13 @@ __all__ = [
     "FixedStep",
     "FmuError",
     "FmuParticipant",
+    "FmuSource",
     "InitialisationError",
     "InputError",
     "InputShape",
     "IsolatedParticipant",
     "Landed",
+    "LastPoint",
     "Linear",
     "LoopGainError",
     "Master",
