@@ -6,6 +6,7 @@ from typing import NamedTuple, Protocol
 from .block import Block
 from .decision import Failure
 from .participant import InputShape, Vector
+from .quasi_newton import Matrix
 
 
 class Attempt(NamedTuple):
@@ -56,6 +57,12 @@ class Coupling(Protocol):
         DivergenceError
             When the accepted steps leave no hope.
         """
+
+    def known(self, step_size: float) -> Sequence[Matrix | None]:
+        """Return the Jacobians of an attempt of `step_size` [s], as far as there are any."""
+
+    def learn(self, jacobians: Sequence[Matrix | None]) -> None:
+        """Start the next attempt from these Jacobians, which `known` gave."""
 
     def forget(self) -> None:
         """Keep nothing: the participants have switched."""

@@ -9,6 +9,7 @@ from .block import Block
 from .coupling import Attempt, Coupling
 from .divergence import DivergenceMonitor
 from .participant import InputShape, Vector
+from .quasi_newton import Matrix
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,6 +95,13 @@ class ExplicitCoupling:
         """Compare what was prescribed in the last attempt with what came out."""
         for block, monitor in self._loops:
             monitor.accept(self._prescribed[block.unknowns], block.computed(), self._time)
+
+    def known(self, _step_size: float) -> Sequence[Matrix | None]:
+        """Nothing is ever learned."""
+        return ()
+
+    def learn(self, jacobians: Sequence[Matrix | None]) -> None:
+        """There is nothing to learn."""
 
     def forget(self) -> None:
         """Expect nothing of the next step."""

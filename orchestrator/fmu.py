@@ -194,6 +194,8 @@ class FmuParticipant(DescribedFmu):
 
     def _call(self, function: str, *arguments: object) -> None:
         assert self._instance is not None, "instantiate comes first"
+        if self._instance.dead:
+            raise self._error(f"{function} was not called after fmi2Fatal")
         self._require(function, self._instance.functions[function](self._component, *arguments))
 
     def _require(self, what: str, status: int) -> None:

@@ -31,6 +31,15 @@ class History:
         """Values at the last accepted point, shape (n,)."""
         return self._last
 
+    @property
+    def slope(self) -> Vector | None:
+        """Slope of the line through the last two points, shape (n,)."""
+        return self._slope
+
+    def resume(self, values: Vector, slope: Vector | None) -> None:
+        """Stand at a point with the slope of a line through it."""
+        self._last, self._slope = values, slope
+
     def restart(self, values: Vector) -> None:
         """Forget all points but this one."""
         self._last = values

@@ -79,6 +79,16 @@ class Stage:
         self._restore(self._state)
         self._moved = False
 
+    def serialise(self) -> bytes:
+        """Return the saved state as bytes."""
+        return self.participant.serialise(self._state)
+
+    def resume(self, data: bytes) -> None:
+        """Make the state in `data` the saved and the present one."""
+        self.release()
+        self._state = self.participant.deserialise(data)
+        self.go_back()
+
     def step(self, time: float, step_size: float) -> Failure | None:
         """Set the inputs, step from the saved state and read the outputs.
 

@@ -111,7 +111,7 @@ def cosim_table(result: xr.Dataset) -> Table:
 
 
 def _typed(values: NDArray[np.float64], variable: Variable) -> NDArray[np.generic]:
-    return values.astype(DTYPES[variable.type])
+    return values.astype(DTYPES[variable.type], copy=False)
 
 
 def _attributes(variable: Variable) -> dict[str, str]:

@@ -78,6 +78,17 @@ def test_accepted_points_lie_on_the_switches():
     assert np.abs(gaps).max() <= 1e-10
 
 
+def test_nothing_is_predicted_across_a_switch():
+    settings = MasterSettings(tolerance=1e-3, max_step=0.02, initial_step=1e-4, min_step=1e-9)
+    outcome = Master(drop(), settings, events=["ball.gap"]).run(0.0, 0.5)
+    log = outcome.step_log
+    first = [np.argmax(log["time"] == switch.time) for switch in outcome.switches]
+    assert len(first) > 0
+    # All others but the very first attempt are compared with the straight line before them.
+    assert np.isnan(log["error_norm"][first]).all()
+    assert np.isfinite(log["error_norm"][1 : first[0]]).all()
+
+
 def test_without_located_switches_the_energy_is_worse():
     recorder = Recorder()
     settings = MasterSettings(tolerance=None, fixed_step=2e-3)
