@@ -13,7 +13,7 @@ from .errors import ParticipantError, SettingsError
 from .fmu import FmuParticipant
 from .fmu_description import StartValue
 from .frames import Operation, Report, experiment, number, step_times
-from .participant import OK, InputShape, Status, StatusKind, Vector
+from .participant import OK, InputShape, Matrix, Status, StatusKind, Vector
 from .way_back import Point, deserialising, way_to
 from .worker_process import WorkerLostError, WorkerProcess
 
@@ -173,6 +173,14 @@ class IsolatedParticipant(DescribedFmu):
         report = self._ask(bytes([Operation.GET_OBSERVED]), "reading its observed values")
         if report.status is OK:
             out[:] = np.frombuffer(report.payload)
+        return report.status
+
+    def directional_derivatives(self, out: Matrix) -> Status:
+        """Write what each output gains with each input, shape (n_outputs, n_inputs)."""
+        operation = bytes([Operation.GET_DERIVATIVES])
+        report = self._ask(operation, "reading its directional derivatives")
+        if report.status is OK:
+            out[:] = np.frombuffer(report.payload).reshape(out.shape)
         return report.status
 
     def step(self, time: float, step_size: float) -> Status:

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from .block import Block
 from .coupling import Attempt, Coupling
 from .decision import Failure
-from .participant import InputShape, Vector
-from .quasi_newton import FixedPoint, Matrix
+from .participant import InputShape, Matrix, Vector
+from .quasi_newton import FixedPoint
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

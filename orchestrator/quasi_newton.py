@@ -5,12 +5,10 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .decision import Cause, Failure
-from .participant import Vector
+from .participant import Matrix, Vector
 
-Matrix = NDArray[np.float64]
 Evaluate = Callable[[Vector], Failure | None]
 """Computes G(z); the result is fetched separately."""
 

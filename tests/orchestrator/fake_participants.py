@@ -28,6 +28,7 @@ class Fake:
 
     can_serialise_state = False
     can_vary_step = True
+    provides_directional_derivatives = False
     inputs = ()
     outputs = ()
     details = MappingProxyType({})
@@ -42,6 +43,7 @@ class Fake:
             for variable in names:
                 details = self.details.get(variable, {})
                 self.variables[variable] = Variable(name=variable, causality=causality, **details)
+        self.dependencies = dict.fromkeys(self.outputs)
         self.calls = []
         self.alive = 0
         self.state = None
@@ -99,6 +101,9 @@ class Fake:
         self.held = self.values.copy()
         self.time = time + step_size
         return OK
+
+    def directional_derivatives(self, out):
+        raise NotImplementedError
 
     def save(self):
         self.alive += 1
