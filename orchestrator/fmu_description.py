@@ -3,7 +3,7 @@
 import zipfile
 import zlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -34,6 +34,8 @@ class FmuDescription:
         Its claims.
     dependencies : mapping of str to frozenset of str or None
         For every output the inputs that it depends on without delay; None: not said.
+    initial_dependencies : mapping of str to frozenset of str
+        The same for the initialisation, without the outputs of which nothing is said.
     variables : mapping of str to Variable
         Every variable by name.
     references : mapping of str to int
@@ -57,6 +59,7 @@ class FmuDescription:
     references: Mapping[str, int]
     settable: frozenset[str]
     units: Mapping[str, Unit]
+    initial_dependencies: Mapping[str, frozenset[str]] = field(default_factory=dict)
 
     def check_start_values(self, values: Mapping[str, StartValue]) -> None:
         """Raise `FmuError` unless every value is known, settable and of the right type."""
@@ -129,6 +132,7 @@ def read_fmu(path: Path) -> FmuDescription:
         can_vary_step=bool(interface.canHandleVariableCommunicationStepSize),
         provides_directional_derivatives=bool(interface.providesDirectionalDerivative),
         dependencies=_dependencies(model),
+        initial_dependencies=_said(model.initialUnknowns),
         variables={item.name: _variable(item) for item in model.modelVariables},
         references={item.name: int(item.valueReference) for item in model.modelVariables},
         settable=frozenset(item.name for item in model.modelVariables if _takes_start(item)),
@@ -179,14 +183,17 @@ def _parse(file: str, description: str) -> Any:  # noqa: ANN401 - fmpy carries n
 def _dependencies(model: Any) -> dict[str, frozenset[str] | None]:  # noqa: ANN401 - no types
     """Return what each output depends on; one that the ModelStructure leaves out may on all."""
     known = {item.name: None for item in model.modelVariables if item.causality == "output"}
-    said = {
+    return {**known, **_said(model.outputs)}
+
+
+def _said(unknowns: Any) -> dict[str, frozenset[str]]:  # noqa: ANN401 - fmpy carries no types
+    return {
         item.variable.name: frozenset(
             other.name for other in item.dependencies if other.causality == "input"
         )
-        for item in model.outputs
-        if item.dependencies is not None
+        for item in unknowns
+        if item.dependencies is not None and item.variable.causality == "output"
     }
-    return {**known, **said}
 
 
 def _takes_start(item: Any) -> bool:  # noqa: ANN401 - fmpy carries no types

@@ -108,7 +108,9 @@ class NewtonCoupling:
             def evaluate(values: Vector, block: Block = block) -> Failure | None:
                 return block.step(values, time, step_size)
 
-            solution = equations.solve(evaluate, block.computed, unknowns, known[place])
+            solution = equations.solve(
+                evaluate, block.computed, unknowns, known[place], block.guess
+            )
             self._learned[place] = solution.inverse
             iterations = max(iterations, solution.evaluations)
             residual_norm = max(residual_norm, solution.residual_norm)
