@@ -76,8 +76,8 @@ class ExplicitCoupling:
         self._prescribed = np.empty(0)
 
     @property
-    def warnings(self) -> Sequence[str]:
-        """What was in doubt on the way, a sentence each."""
+    def unreliable(self) -> Sequence[str]:
+        """What was not resolved for long, a sentence each."""
         return [monitor.warning for _, monitor in self._loops if monitor.warning]
 
     def attempt(self, time: float, step_size: float, last: Vector, predicted: Vector) -> Attempt:

@@ -78,6 +78,8 @@ class Outcome:
         Seconds from instantiation to the end.
     warnings : tuple of str
         What makes the result doubtful, a sentence each.
+    unreliable : tuple of str
+        What makes it wrong, although the run went on, a sentence each.
     """
 
     end_time: float
@@ -87,6 +89,7 @@ class Outcome:
     switches: tuple[Switch, ...]
     wall_time: float
     warnings: tuple[str, ...] = ()
+    unreliable: tuple[str, ...] = ()
 
     @property
     def finished(self) -> bool:
