@@ -109,7 +109,8 @@ class Master:
                     step_log=loop.log.as_array(),
                     switches=tuple(switches.found),
                     wall_time=perf_counter() - began,
-                    warnings=(*warnings, *coupling.warnings),
+                    warnings=tuple(warnings),
+                    unreliable=tuple(coupling.unreliable),
                     failure=failure,
                 )
 

@@ -82,7 +82,7 @@ class NewtonCoupling:
         Blocks, upstream first.
     """
 
-    warnings = ()
+    unreliable = ()
 
     def __init__(self, equations: list[tuple[Block, FixedPoint]]) -> None:
         self._equations = equations

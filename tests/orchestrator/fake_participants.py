@@ -305,7 +305,21 @@ def oscillators_exact(t, kc=100.0, dc=1.0, k=10.0, m=1.0, x1=1.0):
     return expm(A * t) @ np.array([x1, 0, 0, 0])
 
 
-def drop(mass=1.0, stiffness=1e4, gravity=10.0, height=0.1, power=1.0):
+class Contact(Spring):
+    """A spring that is told the velocity too and does not use it: a contact without damping."""
+
+    inputs = ("displacement", "velocity")
+
+
+def drop(
+    mass=1.0,
+    stiffness=1e4,
+    gravity=10.0,
+    height=0.1,
+    power=1.0,
+    displacement_nominal=0.1,
+    exchanges_velocity=False,
+):
     """A mass that falls on a spring that cannot pull: x downwards, contact for x > 0."""
     ball = Linear(
         "ball",
@@ -317,9 +331,9 @@ def drop(mass=1.0, stiffness=1e4, gravity=10.0, height=0.1, power=1.0):
         D=np.zeros((3, 1)),
         c=[0, gravity],
         x0=[-height, 0],
-        details={"displacement": {"nominal": 0.1}},
+        details={"displacement": {"nominal": displacement_nominal}, "velocity": {"nominal": 1.4}},
     )
-    spring = Spring(
+    spring = (Contact if exchanges_velocity else Spring)(
         "spring",
         lambda x: stiffness * max(x, 0.0) ** power,
         details={"force": {"nominal": 1e2, "minimum": 0.0}},
@@ -328,4 +342,6 @@ def drop(mass=1.0, stiffness=1e4, gravity=10.0, height=0.1, power=1.0):
         Connection(source="ball.displacement", target="spring.displacement"),
         Connection(source="spring.force", target="ball.force"),
     ]
+    if exchanges_velocity:
+        wires.append(Connection(source="ball.velocity", target="spring.velocity"))
     return System([ball, spring], wires)
