@@ -49,7 +49,7 @@ def find_needs(exchange: Exchange, silent: Collection[int]) -> Needs:
     for value, path in enumerate(exchange.value_names):
         place = sources[value]
         declared = exchange.stages[place].participant.initial_dependencies
-        known = None if place in silent else declared.get(path.partition(".")[2])
+        known = None if place in silent else declared[path.partition(".")[2]]
         needs.append(
             [
                 wire
