@@ -4,8 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from .fmu import FmuParticipant
-from .fmu_description import StartValue
+from .fmu import FmuParticipant, StartValue
 from .isolated import IsolatedParticipant
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -48,7 +49,7 @@ def find_needs(exchange: Exchange, silent: Collection[int]) -> Needs:
     for value, path in enumerate(exchange.value_names):
         place = sources[value]
         declared = exchange.stages[place].participant.initial_dependencies
-        known = None if place in silent else declared.get(path.partition(".")[2])
+        known = None if place in silent else declared[path.partition(".")[2]]
         needs.append(
             [
                 wire
@@ -133,6 +134,24 @@ def make_chain(exchange: Exchange, group: Group, needs: Needs) -> list[Link]:
     ]
 
 
+class Reading(NamedTuple):
+    """A value when it was computed.
+
+    Attributes
+    ----------
+    output : float
+        What it was.
+    inputs : numpy.ndarray
+        What the inputs were that it was held to depend on.
+    places : numpy.ndarray of int
+        Their places in `Exchange.inputs`.
+    """
+
+    output: float
+    inputs: Vector
+    places: Indices
+
+
 class InitialGroup:
     """A group of values and the participants that compute it.
 
@@ -153,6 +172,8 @@ class InitialGroup:
         Connections whose inputs take torn values.
     jacobian : InterfaceJacobian
         First guess of how the torn values answer to themselves.
+    readings : dict of int to Reading
+        The values of the group as they were computed last.
     """
 
     def __init__(self, exchange: Exchange, group: Group, needs: Needs) -> None:
@@ -171,9 +192,14 @@ class InitialGroup:
                 np.array([wire.input for wire in link.wires], np.intp),
                 np.array([wire.output for wire in link.wires], np.intp),
                 link.outputs - ends[link.stage],
+                self._values_at(link.outputs),
             )
             for link in self._chain
         ]
+        self._needed = {
+            value: np.array([wire.input for wire in needs[value]], np.intp) for value in group.order
+        }
+        self.readings: dict[int, Reading] = {}
         self.jacobian = InterfaceJacobian(
             exchange,
             unknowns=self.unknowns,
@@ -187,12 +213,19 @@ class InitialGroup:
         inputs, outputs = self._exchange.inputs, self._exchange.outputs
         for wire in self.torn:
             inputs[wire.input] = values[np.searchsorted(self.unknowns, wire.value)]
-        for stage, into, source, wanted in self._turns:
+        for stage, into, source, wanted, computed in self._turns:
             inputs[into] = outputs[source]
             failure = stage.exchange(wanted)
             if failure is not None:
                 return failure
+            for value, place in computed:
+                needed = self._needed[value]
+                self.readings[value] = Reading(float(outputs[place]), inputs[needed], needed)
         return None
+
+    def _values_at(self, places: Indices) -> list[tuple[int, int]]:
+        found = {int(place): value for value, place in enumerate(self._exchange.value_places)}
+        return [(found[place], place) for place in places.tolist()]
 
     def computed(self) -> Vector:
         """Return what has been computed for the torn values, shape (n,)."""

@@ -8,7 +8,7 @@ from .decision import Failure
 from .errors import InitialisationError, list_names
 from .exchange import Exchange, Wire
 from .initial_check import find_changes, settled
-from .initial_graph import InitialGroup, Needs, find_needs, group_values
+from .initial_graph import InitialGroup, Reading, find_needs, group_values
 from .participant import Matrix
 from .quasi_newton import FixedPoint
 
@@ -23,7 +23,8 @@ def settle_initial_values(exchange: Exchange) -> list[str]:
     What the outputs depend on is taken from the participants; one that does not say lets every
     output depend on every input. Values come in the order of their dependence, loops are solved for
     the fewest torn values. At last everything is computed once more: a participant whose outputs
-    change then has declared too little, and counts as silent in a new beginning.
+    change then has declared too little, and counts as silent in a new beginning. All do if there is
+    no settling otherwise.
 
     Parameters
     ----------
@@ -40,12 +41,19 @@ def settle_initial_values(exchange: Exchange) -> list[str]:
     InitialisationError
         When a loop does not settle or a participant refuses.
     """
+    everyone = range(len(exchange.stages))
     silent: set[int] = set()
     warnings: list[str] = []
     while True:
-        needs = find_needs(exchange, silent)
-        torn = _settle(exchange, needs)
-        changed = find_changes(exchange, needs, torn)
+        readings, torn, failure = _settle(exchange, silent)
+        if failure is not None:
+            reason = failure.message.rstrip(".")
+            if find_needs(exchange, silent) == find_needs(exchange, everyone):
+                raise InitialisationError(f"The initial values do not settle: {reason}.")
+            logger.info("declared dependences are passed over, because %s", reason)
+            silent.update(everyone)
+            continue
+        changed = find_changes(exchange, readings, torn)
         if not changed:
             return warnings
         wrong = {place: names for place, names in changed.items() if place not in silent}
@@ -66,18 +74,22 @@ def settle_initial_values(exchange: Exchange) -> list[str]:
         silent.update(wrong)
 
 
-def _settle(exchange: Exchange, needs: Needs) -> set[Wire]:
-    """Settle group by group; return the connections whose inputs take torn values."""
+def _settle(
+    exchange: Exchange, silent: set[int]
+) -> tuple[dict[int, Reading], set[Wire], Failure | None]:
+    """Settle group by group; return the values as computed and connections with torn values."""
+    needs = find_needs(exchange, silent)
     _guess(exchange)
+    readings: dict[int, Reading] = {}
     torn: set[Wire] = set()
     for members in group_values(needs):
         group = InitialGroup(exchange, members, needs)
         failure = _solve(exchange, group)
         if failure is not None:
-            reason = failure.message.rstrip(".")
-            raise InitialisationError(f"The initial values do not settle: {reason}.")
+            return readings, torn, failure
+        readings.update(group.readings)
         torn.update(group.torn)
-    return torn
+    return readings, torn, None
 
 
 def _guess(exchange: Exchange) -> None:

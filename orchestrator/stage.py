@@ -12,7 +12,11 @@ from .units import Linear, identity
 
 Indices = NDArray[np.intp]
 
-causes = {StatusKind.DISCARD: Cause.DISCARD, StatusKind.ERROR: Cause.INVALID}
+causes = {
+    StatusKind.DISCARD: Cause.DISCARD,
+    StatusKind.EARLY: Cause.DISCARD,
+    StatusKind.ERROR: Cause.INVALID,
+}
 
 
 class Stage:
@@ -159,7 +163,7 @@ class Stage:
     def passes_on(self, declared: Mapping[str, frozenset[str] | None]) -> bool:
         """Return whether any output may depend on any input, as far as is `declared`."""
         inputs = set(self.input_names)
-        known = [declared.get(name) for name in self.output_names]
+        known = [declared[name] for name in self.output_names]
         return any(names is None or names & inputs for names in known) if inputs else False
 
     def converted_inputs(self) -> Vector:
@@ -220,5 +224,6 @@ class Stage:
             causes[status.kind],
             str(error),
             last_successful_time=status.last_successful_time,
+            ends_early=status.kind is StatusKind.EARLY,
             participant_error=error if status.kind is StatusKind.ERROR else None,
         )

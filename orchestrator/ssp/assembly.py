@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import SystemFileError, WiringError, close_matches
-from ..fmu import FmuParticipant
-from ..fmu_description import StartValue
+from ..fmu import FmuParticipant, StartValue
 from ..fmu_source import FmuSource
 from ..system import Connection, System
 from ..units import identity

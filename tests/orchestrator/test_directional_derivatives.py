@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from fake_participants import Linear, discard, oscillators, static, wire
 
-from orchestrator import Linear as Conversion
 from orchestrator import (
+    FmuParticipant,
     Master,
     MasterSettings,
     ParticipantError,
@@ -14,6 +14,7 @@ from orchestrator import (
     StatusKind,
     System,
 )
+from orchestrator import Linear as Conversion
 from orchestrator.block import tear
 from orchestrator.exchange import Exchange
 
@@ -200,3 +201,34 @@ def test_without_derivatives_there_is_no_guess():
 def test_runs_with_derivatives_repeat_themselves_bit_for_bit():
     histories = [run(loop(1.5, derivatives=noisy)[0], min_step=1e-3)[1].values for _ in range(2)]
     assert histories[0].tobytes() == histories[1].tobytes()
+
+
+@pytest.mark.parametrize("fmi_version", [2, 3])
+@pytest.mark.parametrize("gain", [0.3, 4.5])
+def test_the_derivatives_of_an_fmu_spare_the_differences(compiled_fmu, fmi_version, gain):
+    """y = gain u, u = 1 - y, at the start and in every step."""
+    values = []
+    for derivatives in (np.copy, None):
+        fmu = FmuParticipant(
+            compiled_fmu("gain", fmi_version), name="fmu", start_values={"gain": gain}
+        )
+        rest = static(
+            "rest", inputs=["u"], outputs=["y"], D=[[-1.0]], e=[1.0], derivatives=derivatives,
+            kind=Stepping,
+        )  # fmt: skip
+        system = System([fmu, rest], [wire("fmu.y", "rest.u"), wire("rest.y", "fmu.u")])
+        recorder = Recorder(["fmu.y"])
+        settings = MasterSettings(tolerance=None, fixed_step=0.5)
+        outcome = Master(system, settings, observers=[recorder]).run(0.0, 0.5)
+        assert recorder["fmu.y"][0] == pytest.approx(gain / (1.0 + gain), abs=1e-9)
+        assert recorder["fmu.y"][-1] == pytest.approx(2.0 * gain / (1.0 + gain), abs=1e-6)
+        values.append(outcome.statistics.iterations)
+    # The residual and one correction; one more for the difference.
+    assert values == [2, 3]
+
+
+class Stepping(Linear):
+    """One more after the first step."""
+
+    def advance(self, over):
+        return super().advance(over) + 1.0

@@ -288,3 +288,36 @@ def test_bounds_hold_at_a_solution_on_them():
     # f1 = 4 (1 - f1) = 0.8, and at the other one 0.1 - 0.4 < 0: no force.
     assert [values["pair.force[1]"], values["pair.force[2]"]] == pytest.approx([0.8, 0.0], abs=1e-9)
     assert min(seen) >= 0.0
+
+
+def test_who_only_follows_a_wrong_declaration_is_not_blamed():
+    """a is asked twice, the second time with what b should have said the first time."""
+    a = static(
+        "a", inputs=["b", "c"], outputs=["p", "q"], D=[[1, 0], [1, 1]], e=[1, 0], declares=True
+    )
+    b = static("b", inputs=["p"], outputs=["y", "z"], D=[[0.5], [3]], e=[1, 0])
+    b.dependencies = {"y": frozenset(), "z": frozenset(["p"])}
+    sink = static("sink", inputs=["u"], outputs=[], D=np.zeros((0, 1)))
+    wires = [wire("b.y", "a.b"), wire("a.p", "b.p"), wire("b.z", "a.c"), wire("a.q", "sink.u")]
+    values, warnings = settle(System([a, b, sink], wires))
+    # y = 1 + p/2, p = 1 + y
+    assert values == pytest.approx({"b.y": 3.0, "a.p": 4.0, "b.z": 12.0, "a.q": 15.0}, abs=1e-9)
+    (warning,) = warnings
+    assert "b.y depends on more inputs than b declares" in warning
+
+
+def test_wrong_declarations_that_lead_to_no_value_at_all_are_passed_over():
+    class Inverse(Fake):
+        inputs, outputs = ("u",), ("y",)
+
+        def initial_outputs(self, values):
+            return [1.0 / values[0] if values[0] else np.nan]
+
+    inverse = Inverse("inverse")
+    inverse.dependencies = {"y": frozenset()}
+    two = static("two", inputs=[], outputs=["y"], D=np.zeros((1, 0)), e=[2.0], declares=True)
+    double = static("double", inputs=["u"], outputs=["y"], D=[[2.0]], declares=True)
+    sink = static("sink", inputs=["u"], outputs=[], D=np.zeros((0, 1)))
+    wires = [wire("two.y", "double.u"), wire("double.y", "inverse.u"), wire("inverse.y", "sink.u")]
+    values, _ = settle(System([inverse, two, double, sink], wires))
+    assert values == {"two.y": 2.0, "double.y": 4.0, "inverse.y": 0.25}

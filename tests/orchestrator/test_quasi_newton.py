@@ -211,3 +211,10 @@ def test_broyden_and_differences_take_over_from_a_guess():
     solution = problem.solve([1.3], guess=lambda: np.array([[-1.0 / 9.0]]))
     assert problem.last == pytest.approx([2.0 ** (1.0 / 3.0)], abs=1e-9)
     assert solution.inverse == pytest.approx(-1.0 / (3.0 * 2.0 ** (2.0 / 3.0)), rel=1e-2)
+
+
+def test_a_correction_that_makes_it_worse_is_undone():
+    """Newton's iteration on arctan runs away from beyond 1.39; the wrong guess leads to z = 50."""
+    problem = Problem(lambda z: z - np.arctan(z), 1)
+    assert problem.solve([1.0], guess=lambda: np.array([[200.0 / np.pi]])).failure is None
+    assert problem.last == pytest.approx([0.0], abs=1e-9)
