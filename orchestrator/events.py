@@ -52,6 +52,16 @@ class Switches:
         self._bracket: Bracket | None = None
         self._tried: Bracket | None = None
 
+    @property
+    def values(self) -> tuple[float, ...]:
+        """Indicators at the accepted point."""
+        return self._values
+
+    @property
+    def searching(self) -> bool:
+        """Whether attempts are made to land on a switch."""
+        return self._bracket is not None
+
     def start(self, values: Sequence[float]) -> None:
         """Take the sides from the initial values; one that is zero takes its side on leaving."""
         self._sides = [0] * len(values)

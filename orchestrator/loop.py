@@ -8,12 +8,13 @@ import numpy as np
 from .block import Block
 from .clock import Clock, Step
 from .coupling import Coupling
-from .decision import Accept, Candidate, Cause, Landed, Reject
-from .errors import RunError, StepTooSmallError
+from .decision import Accept, Candidate, Cause, Decision, Landed, Reject
+from .errors import ParticipantError, RunError, StepTooSmallError
 from .events import Switches
 from .exchange import Exchange
 from .explanation import explain
 from .interrupt import Interrupt
+from .last_attempt import LastAttempt
 from .observation import Observation
 from .observers import Observer
 from .outcome import StopReason
@@ -94,7 +95,10 @@ class Loop:
         self._predicted: Vector = self._history.last
         allowed = exchange.nominal * (settings.tolerance or 1.0)
         self._weights: Vector = exchange.continuous / allowed
+        # What has no continuous value to predict makes no error that could be seen.
+        self._unpredicted = nan if exchange.continuous.any() else 0.0
         self._error_forgiven = False
+        self._attempting: Step | None = None
         self.log = StepLog()
 
     def run(self, interrupt: Interrupt) -> StopReason:
@@ -105,7 +109,7 @@ class Loop:
         RunError
             When it cannot go on; the message names participant, time and cause.
         """
-        clock, decide, settings = self._clock, self._controller.decide, self._settings
+        clock, settings = self._clock, self._settings
         deadline = perf_counter() + (settings.max_wall_time or float("inf"))
         budget = settings.max_attempts or float("inf")
         self._begin()
@@ -116,13 +120,7 @@ class Loop:
                 return StopReason.STEP_BUDGET
             if perf_counter() >= deadline:
                 return StopReason.TIME_BUDGET
-            candidate = self._attempt(step)
-            decision = decide(candidate)
-            if isinstance(decision, Accept):
-                failure = self._observation.read(step.start, step.size)
-                if failure is not None:
-                    candidate = candidate._replace(failure=failure)
-                    decision = decide(candidate)
+            candidate, decision = self._try(step)
             if isinstance(decision, Accept):
                 in_a_row = 0
                 wanted = self._accept(step, candidate, decision)
@@ -153,6 +151,54 @@ class Loop:
             raise RunError(failure.message)
         observation.notify(time)
 
+    def last_attempt(self) -> LastAttempt | None:
+        """Return what it takes to repeat an attempt that failed, where states can be serialised."""
+        step, stages = self._attempting, self._exchange.stages
+        able = [stage for stage in self.saved if stage.participant.can_serialise_state]
+        if step is None or len(able) < len(stages) or self._switches.searching:
+            return None
+        try:
+            states = {stage.participant.name: stage.serialise() for stage in stages}
+        except ParticipantError:
+            return None  # it died, or it claims too much: the whole run can be repeated
+        return LastAttempt(
+            time=step.start,
+            step_size=step.size,
+            landing=step.landing,
+            values=self._history.last,
+            slope=self._history.slope,
+            jacobians=self._coupling.known(step.size),
+            indicators=self._switches.values,
+            states=states,
+        )
+
+    def repeat(self, attempt: LastAttempt) -> str | None:
+        """Repeat an attempt, and say why it failed, or None if it did not.
+
+        Raises
+        ------
+        ParticipantError
+            When a participant died in it.
+        """
+        for stage in self._exchange.stages:
+            stage.resume(attempt.states[stage.participant.name])
+        self._history.resume(attempt.values, attempt.slope)
+        self._coupling.learn(attempt.jacobians)
+        self._switches.start(attempt.indicators)
+        candidate, decision = self._try(Step(attempt.time, attempt.step_size, attempt.landing))
+        return None if isinstance(decision, Accept) else self._explain(candidate, decision.cause)
+
+    def _try(self, step: Step) -> tuple[Candidate, Decision]:
+        self._attempting = step
+        candidate = self._attempt(step)
+        decision = self._controller.decide(candidate)
+        if isinstance(decision, Accept):
+            failure = self._observation.read(step.start, step.size)
+            if failure is not None:
+                candidate = candidate._replace(failure=failure)
+                decision = self._controller.decide(candidate)
+        return candidate, decision
+
     def _attempt(self, step: Step) -> Candidate:
         time, size, _ = step
         history, outputs = self._history, self._exchange.outputs
@@ -164,13 +210,17 @@ class Loop:
             if self._has_events:
                 indicators = outputs[self._exchange.indicator_places].tolist()
                 finding = self._switches.examine(size, indicators)
-            if self._controller.uses_error and history.has_slope:
-                values = outputs[self._exchange.value_places]
-                error = largest((values - predicted) * self._weights)
+            if self._controller.uses_error:
+                error = self._unpredicted
+                if history.has_slope:
+                    values = outputs[self._exchange.value_places]
+                    miss = largest((values - predicted) * self._weights)
+                    error = miss * history.curvature_factor(size)
         return Candidate(time, size, failure, finding, error, iterations, residual)
 
     def _accept(self, step: Step, candidate: Candidate, decision: Accept) -> float:
         time, size, _ = step
+        self._attempting = None
         if self._last is not None:
             self._step_last(time, size)
         self.log.append(candidate, 0)
@@ -228,6 +278,9 @@ class Loop:
             return self._clock.plan_exactly(wanted)
         if wanted == step.size:
             return step
+        if cause is Cause.ERROR and not self._history.has_past:
+            exchange = self._exchange
+            self._history.look_ahead(exchange.outputs[exchange.value_places], step.size)
         if self._has_events:
             self._switches.abandon()
         if exactly:

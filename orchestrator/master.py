@@ -9,11 +9,12 @@ from time import perf_counter
 from .block import Block, tear
 from .clock import Clock, Step
 from .coupling import Algorithm, Coupling
-from .errors import SettingsError, WiringError
+from .errors import RunError, SettingsError, WiringError
 from .events import Switches
 from .exchange import Exchange
 from .initialisation import settle_initial_values
 from .interrupt import Interrupt, deferred_interrupt
+from .last_attempt import LastAttempt
 from .loop import Loop
 from .loop_gain import estimate_loop_gains, review_loop_gains
 from .observers import Observer
@@ -84,43 +85,81 @@ class Master:
         InputError
             When system and settings do not fit together.
         RunError
-            When the run cannot go on.
+            When the run cannot go on; it says how far it came.
         """
         began = perf_counter()
+        controller, clock = self._make_clock(start_time, stop_time)
+        exchange = self._make_exchange()
+        switches = self._make_switches(stop_time - start_time)
+        loop, blocks, coupling = self._make_loop(exchange, controller, clock, switches)
+        warnings: list[str] = []
+        with deferred_interrupt() as interrupt, ExitStack() as cleanup:
+            warnings += self._initialise(exchange, clock, stop_time, cleanup)
+            first = clock.plan(controller.first_step)
+            if loop.rolls_back and self._settings.check_rollback:
+                warnings += check_rollback(loop.saved, first.start, first.size)
+            if not coupling.iterates:
+                warnings += self._review_loops(loop, exchange, blocks, first)
+
+            def end(reason: StopReason, failure: str = "") -> Outcome:
+                return Outcome(
+                    end_time=clock.time,
+                    reason=reason,
+                    statistics=loop.log.statistics(len(switches.found)),
+                    step_log=loop.log.as_array(),
+                    switches=tuple(switches.found),
+                    wall_time=perf_counter() - began,
+                    warnings=tuple(warnings),
+                    unreliable=tuple(coupling.unreliable),
+                    failure=failure,
+                )
+
+            try:
+                reason = self._observe_loop(loop, interrupt, exchange)
+            except RunError as error:
+                error.outcome = end(StopReason.FAILED, str(error))
+                error.last_attempt = loop.last_attempt()
+                raise
+        return end(reason)
+
+    def repeat(self, start_time: float, stop_time: float, attempt: LastAttempt) -> str | None:
+        """Repeat the attempt on which a run from `start_time` to `stop_time` [s] ended.
+
+        Returns
+        -------
+        str or None
+            Why it failed, a clause that the error of the run holds too; None if it did not fail.
+
+        Raises
+        ------
+        RunError
+            When a participant died in it, or cannot be brought to its start.
+        """
+        controller, clock = self._make_clock(start_time, stop_time)
+        exchange = self._make_exchange()
+        switches = self._make_switches(stop_time - start_time)
+        loop, _, _ = self._make_loop(exchange, controller, clock, switches)
+        with ExitStack() as cleanup:
+            self._initialise(exchange, clock, stop_time, cleanup)
+            return loop.repeat(attempt)
+
+    def _make_clock(self, start_time: float, stop_time: float) -> tuple[StepController, Clock]:
         duration = stop_time - start_time
         if not 0.0 < duration < inf:
             raise SettingsError(
                 f"stop time {stop_time} s must be later than start time {start_time} s, and finite."
             )
         controller = self._controller or self._settings.make_controller(duration)
-        clock = Clock(
+        return controller, Clock(
             start=start_time, stop=stop_time, min_step=controller.min_step, grid=controller.grid
         )
-        exchange = Exchange(
+
+    def _make_exchange(self) -> Exchange:
+        return Exchange(
             self._system,
             indicators=self._events,
             observed=self._choose(),
             input_shape=self._algorithm.input_shape,
-        )
-        switches = self._make_switches(duration)
-        loop, blocks, coupling = self._make_loop(exchange, controller, clock, switches)
-        warnings: list[str] = []
-        with deferred_interrupt() as interrupt, ExitStack() as cleanup:
-            self._initialise(exchange, clock, stop_time, cleanup)
-            first = clock.plan(controller.first_step)
-            if loop.rolls_back and self._settings.check_rollback:
-                check_rollback(loop.saved, first.start, first.size)
-            if not coupling.iterates:
-                warnings += self._review_loops(loop, exchange, blocks, first)
-            reason = self._observe_loop(loop, interrupt, exchange)
-        return Outcome(
-            end_time=clock.time,
-            reason=reason,
-            statistics=loop.log.statistics(len(switches.found)),
-            step_log=loop.log.as_array(),
-            switches=tuple(switches.found),
-            wall_time=perf_counter() - began,
-            warnings=(*warnings, *coupling.warnings),
         )
 
     def _review_loops(
@@ -130,20 +169,19 @@ class Master:
 
         A run that saves no states needs them here, so that they are checked first.
         """
+        warnings: list[str] = []
         if not loop.rolls_back:
             if not self._settings.check_rollback:
                 return []
             coupled = {n for block in blocks if block.unknowns.size for n in block.order}
             stages = [exchange.stages[place] for place in sorted(coupled)]
             able = [stage for stage in stages if stage.participant.can_save_state]
-            check_rollback(able, first.start, first.size)
+            warnings += check_rollback(able, first.start, first.size)
         gains = estimate_loop_gains(exchange, blocks, first.start, first.size)
-        warnings = review_loop_gains(
-            gains, first.size, extrapolates=self._algorithm.uses_prediction
-        )
-        for warning in warnings:
-            logger.warning("%s", warning)
-        return warnings
+        doubts = review_loop_gains(gains, first.size, extrapolates=self._algorithm.uses_prediction)
+        for doubt in doubts:
+            logger.warning("%s", doubt)
+        return warnings + doubts
 
     def _choose(self) -> list[str]:
         available = self._system.variables()
@@ -216,7 +254,7 @@ class Master:
 
     def _initialise(
         self, exchange: Exchange, clock: Clock, stop_time: float, cleanup: ExitStack
-    ) -> None:
+    ) -> list[str]:
         for stage in exchange.stages:
             cleanup.callback(stage.participant.free)
             cleanup.callback(stage.release)
@@ -225,10 +263,11 @@ class Master:
             stage.participant.enter_initialisation(
                 start_time=clock.time, stop_time=stop_time, tolerance=self._settings.tolerance
             )
-        settle_initial_values(exchange)
+        warnings = settle_initial_values(exchange)
         for stage in exchange.stages:
             stage.participant.exit_initialisation()
             stage.read_outputs()
+        return warnings
 
     def _observe_loop(self, loop: Loop, interrupt: Interrupt, exchange: Exchange) -> StopReason:
         for observer in self._observers:

@@ -14,6 +14,7 @@ class StopReason(Enum):
     FINISHED = "the stop time was reached"
     INTERRUPTED = "it was interrupted"
     STEP_BUDGET = "the largest number of attempts was reached"
+    FAILED = "it failed"
     TIME_BUDGET = "the wall time allowed was used up"
 
 
@@ -78,6 +79,10 @@ class Outcome:
         Seconds from instantiation to the end.
     warnings : tuple of str
         What makes the result doubtful, a sentence each.
+    failure : str
+        Why it failed, a sentence; empty unless it did.
+    unreliable : tuple of str
+        What makes it wrong, although the run went on, a sentence each.
     """
 
     end_time: float
@@ -87,6 +92,8 @@ class Outcome:
     switches: tuple[Switch, ...]
     wall_time: float
     warnings: tuple[str, ...] = ()
+    failure: str = ""
+    unreliable: tuple[str, ...] = ()
 
     @property
     def finished(self) -> bool:

@@ -139,6 +139,13 @@ class Participant(Protocol):
         """For every output the inputs that it depends on without delay; None: not known."""
 
     @property
+    def initial_dependencies(self) -> Mapping[str, frozenset[str] | None]:
+        """For outputs the inputs that they depend on during the initialisation.
+
+        None, or an output that is left out: not known.
+        """
+
+    @property
     def provides_directional_derivatives(self) -> bool:
         """Whether it claims that `directional_derivatives` works."""
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
 from enum import StrEnum
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -47,6 +48,12 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
+
+ISOLATE = Annotated[bool, typer.Option("--isolate", help="Run each FMU in a process of its own.")]
+TIMEOUT = Annotated[
+    float | None,
+    typer.Option(metavar="S", help="Longest answer of an FMU [s]; with --isolate, 60 without."),
+]
 
 PACKAGE_NAME = "Passage.ssp"
 """File of the paper's case as a system of FMUs."""
@@ -110,13 +117,8 @@ def run(
         typer.Option("--set", metavar="KEY=VALUE", help="Replace a key, as in flat.depth=1e-3."),
     ] = None,
     fmus: Annotated[FmuKind, typer.Option(help="Which build of the FMUs runs.")] = FmuKind.PYTHON,
-    isolate: Annotated[
-        bool, typer.Option("--isolate", help="Run each FMU in a process of its own.")
-    ] = False,
-    timeout: Annotated[
-        float | None,
-        typer.Option(metavar="S", help="Longest answer of an FMU [s]; with --isolate, 60 without."),
-    ] = None,
+    isolate: ISOLATE = False,
+    timeout: TIMEOUT = None,
     output: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Result: .nc, .csv or .parquet.")
     ] = None,
@@ -148,7 +150,7 @@ def run(
             typer.echo(json.dumps(summary.as_dict(), indent=2, allow_nan=False))
         elif not quiet:
             Console().print(summary_table(summary, describe(case)))
-        _check_complete(passage)
+        _check_result(passage)
 
 
 @app.command()
@@ -177,6 +179,8 @@ def cosim(
             help="Signed output whose changes of sign are landed on; may be repeated.",
         ),
     ] = None,
+    isolate: ISOLATE = False,
+    timeout: TIMEOUT = None,
     output: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Result: .nc, .csv or .parquet.")
     ] = None,
@@ -198,14 +202,20 @@ def cosim(
         )
         if output is not None:
             check_writable(output, option="--output", suffixes=DATA_SUFFIXES)
-        result = _followed_cosim(system, options, quiet=quiet)
+        result = _followed_cosim(
+            system,
+            options,
+            _time_limit(timeout, isolate=isolate),
+            with_histories=output is not None,
+            quiet=quiet,
+        )
         if output is not None:
             write_dataset(result, output)
         if as_json:
             typer.echo(json.dumps(summarise_cosim(result), indent=2, allow_nan=False))
         elif not quiet:
             Console().print(cosim_table(result))
-        _check_complete(result)
+        _check_result(result)
 
 
 @app.command()
@@ -274,21 +284,31 @@ def _followed_run(
         return run_passage(case, fmus=fmus.value, timeout=timeout, notify=_say, report=report)
 
 
-def _followed_cosim(system: Path, options: CosimOptions, *, quiet: bool) -> xr.Dataset:
+def _followed_cosim(
+    system: Path,
+    options: CosimOptions,
+    timeout: float | None,
+    *,
+    with_histories: bool,
+    quiet: bool,
+) -> xr.Dataset:
     """Do the same for a system."""
+    run = partial(run_system, system, options, timeout=timeout, with_histories=with_histories)
     if quiet:
-        return run_system(system, options)
+        return run()
     with progress_bar(Console(stderr=True), system.stem) as report:
-        return run_system(system, options, notify=_say, report=report)
+        return run(notify=_say, report=report)
 
 
-def _check_complete(result: xr.Dataset) -> None:
-    """Say why a run ended early, if it did."""
+def _check_result(result: xr.Dataset) -> None:
+    """Say why a run ended early or is wrong, if it did or is."""
     if not result.attrs["complete"]:
         raise RunError(
             f"the run ended at t = {result.attrs['simulated_time']:.6g} s, because "
             f"{result.attrs['stop_reason']}; the result reaches up to there"
         )
+    if result.attrs["unreliable"]:
+        raise RunError(f"the result is wrong: {result.attrs['unreliable'].splitlines()[0]}")
 
 
 @contextmanager

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from threadpoolctl import threadpool_limits
 
 import orchestrator
-from orchestrator import Master, Recorder
+from orchestrator import LastPoint, Master, Recorder
 from orchestrator.ssp import open_system
 
 from .cosim_result import label_result
@@ -31,6 +31,8 @@ def run_system(
     path: Path,
     options: CosimOptions,
     *,
+    timeout: float | None = None,
+    with_histories: bool = True,
     notify: Callable[[str], None] | None = None,
     report: Callable[[Progress], None] | None = None,
 ) -> xr.Dataset:
@@ -42,6 +44,10 @@ def run_system(
         An .ssp or .ssd file.
     options : CosimOptions
         What counts more than what the file says.
+    timeout : float, optional
+        Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
+    with_histories : bool
+        Whether outputs are kept over time, or their last values only.
     notify : callable, optional
         Told in a few words of parameter values that no variable has.
     report : callable, optional
@@ -61,11 +67,15 @@ def run_system(
     """
     try:
         # The FMUs share the process and its BLAS: their matrices are too small for more threads.
-        with open_system(path) as opened, threadpool_limits(limits=1, user_api="blas"):
+        with (
+            open_system(path, timeout=timeout) as opened,
+            threadpool_limits(limits=1, user_api="blas"),
+        ):
             for name in opened.unused:
                 if notify is not None:
                     notify(f"no variable takes the parameter value {name}: it is not used")
-            return _run(opened, options, notify, report)
+            recorder = Recorder() if with_histories else LastPoint()
+            return _run(opened, options, recorder, notify, report)
     except orchestrator.InputError as error:
         raise InputError(str(error)) from error
     except orchestrator.RunError as error:
@@ -75,6 +85,7 @@ def run_system(
 def _run(
     opened: AssembledSystem,
     options: CosimOptions,
+    recorder: Recorder,
     notify: Callable[[str], None] | None,
     report: Callable[[Progress], None] | None,
 ) -> xr.Dataset:
@@ -84,7 +95,6 @@ def _run(
     control = settings.make_controller(stop - start)
     if report is not None:
         control = WatchedControl(control, stop_time=stop, report=report)
-    recorder = Recorder()
     master = Master(
         opened.system,
         settings,

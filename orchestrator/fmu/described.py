@@ -56,6 +56,11 @@ class DescribedFmu:
         return self._description.dependencies
 
     @property
+    def initial_dependencies(self) -> Mapping[str, frozenset[str] | None]:
+        """For the outputs among its InitialUnknowns the inputs that they depend on there."""
+        return self._description.initial_dependencies
+
+    @property
     def provides_directional_derivatives(self) -> bool:
         """Whether it claims providesDirectionalDerivative."""
         return self._description.provides_directional_derivatives

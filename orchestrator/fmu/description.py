@@ -54,6 +54,8 @@ class FmuDescription:
         Whether it takes derivatives of its inputs (FMI 2.0 only).
     dependencies : mapping of str to frozenset of str or None
         For every output the inputs that it depends on without delay; None: not said.
+    initial_dependencies : mapping of str to frozenset of str
+        The same for the initialisation, without the outputs of which nothing is said.
     variables : mapping of str to Variable
         Every variable by name.
     storage : mapping of str to Storage
@@ -79,6 +81,7 @@ class FmuDescription:
     can_interpolate_inputs: bool
     provides_directional_derivatives: bool
     dependencies: Mapping[str, frozenset[str] | None]
+    initial_dependencies: Mapping[str, frozenset[str]]
     variables: Mapping[str, Variable]
     storage: Mapping[str, Storage]
     array_starts: Mapping[int, tuple[float, ...]]

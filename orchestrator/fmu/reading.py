@@ -58,6 +58,7 @@ def read_fmu(path: Path) -> FmuDescription:
         )
     interface = model.coSimulation
     found = read_variables(path.name, model)
+    outputs = [name for name, item in found.variables.items() if item.causality == "output"]
     return FmuDescription(
         path=path,
         fmi_version=2 if model.fmiVersion == "2.0" else 3,
@@ -69,7 +70,8 @@ def read_fmu(path: Path) -> FmuDescription:
         can_vary_step=bool(interface.canHandleVariableCommunicationStepSize),
         can_interpolate_inputs=bool(interface.canInterpolateInputs),
         provides_directional_derivatives=provides_directional_derivatives,
-        dependencies=dependencies(model, found),
+        dependencies={**dict.fromkeys(outputs), **dependencies(model, model.outputs, found)},
+        initial_dependencies=dependencies(model, model.initialUnknowns, found),
         variables=found.variables,
         storage=found.storage,
         array_starts=found.array_starts,

@@ -66,9 +66,10 @@ def element_names(item: Any) -> Iterator[str]:  # noqa: ANN401 - fmpy carries no
 
 def dependencies(
     model: Any,  # noqa: ANN401 - fmpy carries no types
+    unknowns: Any,  # noqa: ANN401 - likewise
     found: FoundVariables,
-) -> Mapping[str, frozenset[str] | None]:
-    """Return what each output depends on; one that the ModelStructure leaves out may on all.
+) -> Mapping[str, frozenset[str]]:
+    """Return which inputs the outputs among `unknowns` depend on, where that is said.
 
     An alias depends on what its variable depends on, and who depends on a variable does so on its
     aliases.
@@ -81,14 +82,15 @@ def dependencies(
         item.variable.name: frozenset(
             name for other in item.dependencies for name in inputs.get(other.name, ())
         )
-        for item in model.outputs
+        for item in unknowns
         if item.dependencies is not None
     }
     return {
-        name: said.get(_base(item).name)
+        name: said[_base(item).name]
         for item in model.modelVariables
         if item.causality == "output" and item.name not in found.left_out
         for name in element_names(item)
+        if _base(item).name in said
     }
 
 

@@ -1,5 +1,8 @@
 """FMUs in C of both versions: exact results, states, faults, early returns, every type."""
 
+import logging
+import zipfile
+
 import numpy as np
 import pytest
 from compiled_fmus import build, integers
@@ -16,12 +19,14 @@ from orchestrator import (
     ParticipantError,
     Recorder,
     RollbackError,
+    Status,
     StatusKind,
     StepTooSmallError,
     System,
     ZenoError,
     check_fmu,
 )
+from orchestrator.fmu.fmi3 import Fmi3Instance
 
 both = pytest.mark.parametrize("fmi_version", [2, 3])
 
@@ -211,15 +216,11 @@ def test_an_fmu_that_cannot_go_back_may_not_return_early(tmp_path):
 
 
 def test_early_returns_without_end_end_the_run(compiled_fmu, monkeypatch):
-    from orchestrator.fmu.fmi3 import Fmi3Instance  # noqa: PLC0415 - only what is replaced here
-
     plain = Fmi3Instance.step
 
     def impatient(self, time, step_size):
         if time < 0.5 or step_size < 1e-9:
             return plain(self, time, step_size)
-        from orchestrator import Status  # noqa: PLC0415 - likewise
-
         return Status(StatusKind.EARLY, "the step ended early", time + 5e-10)
 
     monkeypatch.setattr(Fmi3Instance, "step", impatient)
@@ -282,6 +283,62 @@ def test_start_values_of_fmi3_are_checked(compiled_fmu, values, message):
         FmuParticipant(compiled_fmu("types", 3), start_values=values)
 
 
+def changed(path, folder, old, new):
+    """Copy an FMU with a part of its description replaced."""
+    with zipfile.ZipFile(path) as source, zipfile.ZipFile(folder / "changed.fmu", "w") as target:
+        for name in source.namelist():
+            data = source.read(name)
+            if name == "modelDescription.xml":
+                assert old in data
+                data = data.replace(old, new, 1)
+            target.writestr(name, data)
+    return folder / "changed.fmu"
+
+
+def test_what_cannot_be_used_is_left_out_in_words(compiled_fmu, tmp_path, caplog):
+    more = (
+        b'<Binary name="blob" valueReference="90" causality="parameter" variability="fixed">'
+        b'<Start value="00"/></Binary>'
+        b'<Float64 name="huge" valueReference="91" causality="parameter" variability="fixed"'
+        b' start="1"><Dimension start="101"/><Dimension start="100"/></Float64>'
+    )
+    old = b"</ModelVariables>"
+    path = changed(compiled_fmu("types", 3), tmp_path, old, more + old)
+    with pytest.raises(FmuError, match=r"'blob' takes no start value here, .* of type Binary, wh"):
+        FmuParticipant(path, start_values={"blob": "00"})
+    model = FmuParticipant(path, name="model")
+    assert not {"blob", "huge[1,1]"} & set(model.variables)
+    with caplog.at_level(logging.INFO, logger="orchestrator"):
+        model.bind(inputs=[], outputs=[], observed=[], input_shape="held")
+    assert "model.blob is left out, because it is of type Binary" in caplog.text
+    assert "model.huge is left out, because it is an array of 10100 elements" in caplog.text
+
+
+def test_a_size_that_a_parameter_gives_stays_as_it_is(compiled_fmu, tmp_path):
+    """A structural parameter is known but cannot be set, and gives the start size of arrays."""
+    path = changed(
+        compiled_fmu("types", 3),
+        tmp_path,
+        b'<Dimension start="3"/>',
+        b'<Dimension valueReference="95"/>',
+    )
+    parameter = (
+        b'<UInt64 name="columns" valueReference="95" causality="structuralParameter"'
+        b' variability="fixed" start="3"/></ModelVariables>'
+    )
+    (tmp_path / "again").mkdir()
+    path = changed(path, tmp_path / "again", b"</ModelVariables>", parameter)
+    assert "u[3]" in FmuParticipant(path).variables
+    with pytest.raises(FmuError, match="because the sizes of arrays stay as they are"):
+        FmuParticipant(path, start_values={"columns": 4})
+
+
+def test_start_values_must_be_as_many_as_elements(compiled_fmu, tmp_path):
+    path = changed(compiled_fmu("types", 3), tmp_path, b'"10 20 30"', b'"10 20"')
+    with pytest.raises(FmuError, match=r"^changed\.fmu: 'u' has 3 elements, but 2 start values"):
+        FmuParticipant(path)
+
+
 # check
 
 
@@ -295,7 +352,6 @@ def test_an_fmi3_fmu_holds_all_it_claims_but_what_it_was_told_not_to(compiled_fm
 
 
 def test_a_spring_of_python_pulls_a_mass_of_c(compiled_fmu):
-    """The directional derivative of no output is asked for; the loop closes as with any FMU."""
     mass = FmuParticipant(compiled_fmu("mass", 3), name="mass")
     spring = Spring("spring", lambda x: -100.0 * x, details={"force": {"nominal": 100.0}})
     wires = [
