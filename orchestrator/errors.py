@@ -36,7 +36,7 @@ class SettingsError(InputError):
 
 
 class FmuError(InputError):
-    """A file is no usable FMI 2.0 co-simulation FMU, or a start value does not fit it."""
+    """A file is no usable FMI 2.0 or 3.0 co-simulation FMU, or a start value does not fit it."""
 
 
 class SystemFileError(InputError):

@@ -236,7 +236,9 @@ def build(
 
 @app.command()
 def check(
-    fmu: Annotated[Path, typer.Argument(metavar="FMU", help="An FMI 2.0 co-simulation FMU.")],
+    fmu: Annotated[
+        Path, typer.Argument(metavar="FMU", help="An FMI 2.0 or 3.0 co-simulation FMU.")
+    ],
     *,
     step: Annotated[float, typer.Option(metavar="S", help="Step to try it with [s].")] = 1e-3,
     timeout: Annotated[

@@ -86,6 +86,8 @@ class FmuParticipant(DescribedFmu):
         self._input_way = way
         self.input_shape = way.shape
         logger.info("%s takes its inputs over a step %s", self.name, way.words)
+        for variable, reason in self._description.left_out.items():
+            logger.info("%s.%s is left out, because it is %s", self.name, variable, reason)
 
     def instantiate(self) -> None:
         """Unpack and load the FMU, create the instance and set the start values."""
@@ -108,10 +110,7 @@ class FmuParticipant(DescribedFmu):
         self._read_observed = Reader(target, observed).read
         self._derivatives = DirectionalDerivatives(target, inputs=inputs, outputs=outputs)
         self._advance = instance.step
-        names = instance.state_functions
-        self._get_state, self._set_state, self._free_state = (
-            instance.functions[function] for function in (names.get, names.set, names.free)
-        )
+        self._set_state = instance.functions[instance.state_functions.set]
         self._component = instance.component
         self._slopes = None
         if self._input_way.uses_slopes:
@@ -161,9 +160,7 @@ class FmuParticipant(DescribedFmu):
     def save(self) -> object:
         """Return a new handle of the complete present state."""
         handle = c_void_p()
-        status = self._get_state(self._component, byref(handle))
-        if status > 1:
-            self._require(self._alive.state_functions.get, status)
+        self._call(self._alive.state_functions.get, byref(handle))
         return State(handle, None if self._slopes is None else self._slopes.points)
 
     def restore(self, state: object) -> None:
@@ -179,9 +176,7 @@ class FmuParticipant(DescribedFmu):
         """Give up `state`, unless the instance is dead and must not be called."""
         if self._instance is not None and not self._instance.dead:
             assert isinstance(state, State)
-            status = self._free_state(self._component, byref(state.handle))
-            if status > 1:
-                self._require(self._instance.state_functions.free, status)
+            self._call(self._instance.state_functions.free, byref(state.handle))
 
     def serialise(self, state: object) -> bytes:
         """Return `state` as bytes."""
