@@ -5,8 +5,7 @@ from typing import NamedTuple, Protocol
 
 from .block import Block
 from .decision import Failure
-from .participant import InputShape, Vector
-from .quasi_newton import Matrix
+from .participant import InputShape, Matrix, Vector
 
 
 class Attempt(NamedTuple):
@@ -39,8 +38,8 @@ class Coupling(Protocol):
         """Whether an attempt steps a participant more than once."""
 
     @property
-    def warnings(self) -> Sequence[str]:
-        """What was in doubt on the way, a sentence each."""
+    def unreliable(self) -> Sequence[str]:
+        """What makes the result wrong, a sentence each."""
 
     def attempt(self, time: float, step_size: float, last: Vector, predicted: Vector) -> Attempt:
         """Try the step from `time` by `step_size` [s].

@@ -81,7 +81,8 @@ class Candidate(NamedTuple):
     finding : Refine or Landed or None
         What the indicators say of the result; None: no switch.
     error_norm : float
-        Difference of prediction and result over the tolerance; NaN when nothing was predicted.
+        Difference of prediction and result over the tolerance, as if the step before had been of
+        the same size; NaN when nothing was predicted.
     iterations : int
         How often the coupled participants were stepped.
     residual_norm : float

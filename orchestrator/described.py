@@ -49,3 +49,18 @@ class DescribedFmu:
     def can_vary_step(self) -> bool:
         """Whether it claims canHandleVariableCommunicationStepSize."""
         return self._description.can_vary_step
+
+    @property
+    def dependencies(self) -> Mapping[str, frozenset[str] | None]:
+        """For every output the inputs in its ModelStructure; None where that is silent."""
+        return self._description.dependencies
+
+    @property
+    def initial_dependencies(self) -> Mapping[str, frozenset[str] | None]:
+        """For the outputs among its InitialUnknowns the inputs that they depend on there."""
+        return self._description.initial_dependencies
+
+    @property
+    def provides_directional_derivatives(self) -> bool:
+        """Whether it claims providesDirectionalDerivative."""
+        return self._description.provides_directional_derivatives

@@ -26,7 +26,7 @@ fewest_windows = 4
 """An impact is unresolved for one or two windows; it takes more than that to diverge."""
 
 lasting_windows = 20
-"""Unresolved misses that last so long are worth a warning."""
+"""Unresolved misses that last so long make the result worthless."""
 
 
 class DivergenceMonitor:

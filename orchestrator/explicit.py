@@ -8,8 +8,7 @@ import numpy as np
 from .block import Block
 from .coupling import Attempt, Coupling
 from .divergence import DivergenceMonitor
-from .participant import InputShape, Vector
-from .quasi_newton import Matrix
+from .participant import InputShape, Matrix, Vector
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,8 +76,8 @@ class ExplicitCoupling:
         self._prescribed = np.empty(0)
 
     @property
-    def warnings(self) -> Sequence[str]:
-        """What was in doubt on the way, a sentence each."""
+    def unreliable(self) -> Sequence[str]:
+        """What was not resolved for long, a sentence each."""
         return [monitor.warning for _, monitor in self._loops if monitor.warning]
 
     def attempt(self, time: float, step_size: float, last: Vector, predicted: Vector) -> Attempt:

@@ -12,8 +12,8 @@ from .errors import ParticipantError
 from .fmu_description import StartValue
 from .fmu_instance import FmuInstance
 from .fmu_log import FmuLog
-from .fmu_values import Reader, Writer, write_start_values
-from .participant import OK, InputShape, Status, StatusKind, Vector
+from .fmu_values import DirectionalDerivatives, Reader, Writer, write_start_values
+from .participant import OK, InputShape, Matrix, Status, StatusKind, Vector
 
 logger = logging.getLogger(__name__)
 
@@ -104,6 +104,9 @@ class FmuParticipant(DescribedFmu):
         self._writer = Writer(functions, self._component, description, inputs)
         self._outputs = Reader(functions, self._component, description, outputs)
         self._observed = Reader(functions, self._component, description, observed)
+        self._derivatives = DirectionalDerivatives(
+            functions, self._component, description, inputs=inputs, outputs=outputs
+        )
 
     def enter_initialisation(
         self, *, start_time: float, stop_time: float, tolerance: float | None
@@ -137,6 +140,11 @@ class FmuParticipant(DescribedFmu):
         """Write the observed values to `out`, shape (n_observed,)."""
         status = self._observed.read(out)
         return OK if status < 2 else self._answer("reading its observed values", status)
+
+    def directional_derivatives(self, out: Matrix) -> Status:
+        """Write what each output gains with each input, shape (n_outputs, n_inputs)."""
+        status = self._derivatives.read(out)
+        return OK if status < 2 else self._answer("reading its directional derivatives", status)
 
     def step(self, time: float, step_size: float) -> Status:
         """Advance from `time` [s] by `step_size` [s]."""

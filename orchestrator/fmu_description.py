@@ -3,7 +3,7 @@
 import zipfile
 import zlib
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -30,8 +30,12 @@ class FmuDescription:
         The archive.
     model_name, model_identifier, guid : str
         As in the model description.
-    can_save_state, can_serialise_state, can_vary_step : bool
+    can_save_state, can_serialise_state, can_vary_step, provides_directional_derivatives : bool
         Its claims.
+    dependencies : mapping of str to frozenset of str or None
+        For every output the inputs that it depends on without delay; None: not said.
+    initial_dependencies : mapping of str to frozenset of str
+        The same for the initialisation, without the outputs of which nothing is said.
     variables : mapping of str to Variable
         Every variable by name.
     references : mapping of str to int
@@ -49,10 +53,13 @@ class FmuDescription:
     can_save_state: bool
     can_serialise_state: bool
     can_vary_step: bool
+    provides_directional_derivatives: bool
+    dependencies: Mapping[str, frozenset[str] | None]
     variables: Mapping[str, Variable]
     references: Mapping[str, int]
     settable: frozenset[str]
     units: Mapping[str, Unit]
+    initial_dependencies: Mapping[str, frozenset[str]] = field(default_factory=dict)
 
     def check_start_values(self, values: Mapping[str, StartValue]) -> None:
         """Raise `FmuError` unless every value is known, settable and of the right type."""
@@ -123,6 +130,9 @@ def read_fmu(path: Path) -> FmuDescription:
         can_save_state=bool(interface.canGetAndSetFMUstate),
         can_serialise_state=bool(interface.canSerializeFMUstate),
         can_vary_step=bool(interface.canHandleVariableCommunicationStepSize),
+        provides_directional_derivatives=bool(interface.providesDirectionalDerivative),
+        dependencies=_dependencies(model),
+        initial_dependencies=_said(model.initialUnknowns),
         variables={item.name: _variable(item) for item in model.modelVariables},
         references={item.name: int(item.valueReference) for item in model.modelVariables},
         settable=frozenset(item.name for item in model.modelVariables if _takes_start(item)),
@@ -168,6 +178,22 @@ def _parse(file: str, description: str) -> Any:  # noqa: ANN401 - fmpy carries n
     except Exception as error:  # fmpy raises plain Exception, lxml its own kinds
         problem = " ".join(str(error).split())
         raise FmuError(f"{file}: the model description cannot be read: {problem}") from error
+
+
+def _dependencies(model: Any) -> dict[str, frozenset[str] | None]:  # noqa: ANN401 - no types
+    """Return what each output depends on; one that the ModelStructure leaves out may on all."""
+    known = {item.name: None for item in model.modelVariables if item.causality == "output"}
+    return {**known, **_said(model.outputs)}
+
+
+def _said(unknowns: Any) -> dict[str, frozenset[str]]:  # noqa: ANN401 - fmpy carries no types
+    return {
+        item.variable.name: frozenset(
+            other.name for other in item.dependencies if other.causality == "input"
+        )
+        for item in unknowns
+        if item.dependencies is not None and item.variable.causality == "output"
+    }
 
 
 def _takes_start(item: Any) -> bool:  # noqa: ANN401 - fmpy carries no types

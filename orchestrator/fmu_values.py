@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from .fmu_description import FmuDescription, StartValue
-from .participant import Vector
+from .participant import Matrix, Vector
 
 FmiFunctions = Mapping[str, Callable[..., Any]]
 """Raw functions of the shared library by FMI name."""
@@ -106,6 +106,47 @@ class Reader:
             if status > 1:
                 return status
             out[places] = view
+        return 0
+
+
+class DirectionalDerivatives:
+    """What each of some Real outputs gains with each of some Real inputs.
+
+    Parameters
+    ----------
+    functions, component, description
+        As for `Writer`.
+    inputs, outputs : sequence of str
+        Variables in the order of columns and rows.
+    """
+
+    def __init__(
+        self,
+        functions: FmiFunctions,
+        component: c_void_p,
+        description: FmuDescription,
+        *,
+        inputs: Sequence[str],
+        outputs: Sequence[str],
+    ) -> None:
+        self._get = functions["fmi2GetDirectionalDerivative"]
+        self._component = component
+        self._unknowns = references(description, outputs)
+        self._knowns = [references(description, [name]) for name in inputs]
+        self._seed = (c_double * 1)(1.0)
+        self._buffer = (c_double * max(len(outputs), 1))()
+        self._view: Vector = np.frombuffer(memoryview(self._buffer), np.float64, len(outputs))
+
+    def read(self, out: Matrix) -> int:
+        """Write the derivatives to `out`, shape (n_outputs, n_inputs); return the FMI status."""
+        count = self._view.size
+        for column, known in enumerate(self._knowns if count else ()):
+            status: int = self._get(
+                self._component, self._unknowns, count, known, 1, self._seed, self._buffer
+            )
+            if status > 1:
+                return status
+            out[:, column] = self._view
         return 0
 
 

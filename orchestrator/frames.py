@@ -42,6 +42,7 @@ class Operation(IntEnum):
     SERIALISE = 10
     DESERIALISE = 11
     TERMINATE = 12
+    GET_DERIVATIVES = 13
 
 
 class Report(NamedTuple):

@@ -12,7 +12,7 @@ from .errors import ParticipantError, SettingsError
 from .fmu import FmuParticipant
 from .fmu_description import StartValue
 from .frames import Operation, Report, experiment, number, step_times
-from .participant import OK, InputShape, Status, Vector
+from .participant import OK, InputShape, Matrix, Status, Vector
 from .resumed_process import ResumedProcess
 from .worker_process import WorkerLostError
 
@@ -167,6 +167,14 @@ class IsolatedParticipant(DescribedFmu):
         report = self._noted(self._live.ask(operation, "reading its observed values"))
         if report.status is OK:
             out[:] = np.frombuffer(report.payload)
+        return report.status
+
+    def directional_derivatives(self, out: Matrix) -> Status:
+        """Write what each output gains with each input, shape (n_outputs, n_inputs)."""
+        operation = bytes([Operation.GET_DERIVATIVES])
+        report = self._noted(self._live.ask(operation, "reading its directional derivatives"))
+        if report.status is OK:
+            out[:] = np.frombuffer(report.payload).reshape(out.shape)
         return report.status
 
     def step(self, time: float, step_size: float) -> Status:

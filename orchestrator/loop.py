@@ -95,6 +95,8 @@ class Loop:
         self._predicted: Vector = self._history.last
         allowed = exchange.nominal * (settings.tolerance or 1.0)
         self._weights: Vector = exchange.continuous / allowed
+        # What has no continuous value to predict makes no error that could be seen.
+        self._unpredicted = nan if exchange.continuous.any() else 0.0
         self._error_forgiven = False
         self._attempting: Step | None = None
         self.log = StepLog()
@@ -208,9 +210,12 @@ class Loop:
             if self._has_events:
                 indicators = outputs[self._exchange.indicator_places].tolist()
                 finding = self._switches.examine(size, indicators)
-            if self._controller.uses_error and history.has_slope:
-                values = outputs[self._exchange.value_places]
-                error = largest((values - predicted) * self._weights)
+            if self._controller.uses_error:
+                error = self._unpredicted
+                if history.has_slope:
+                    values = outputs[self._exchange.value_places]
+                    miss = largest((values - predicted) * self._weights)
+                    error = miss * history.curvature_factor(size)
         return Candidate(time, size, failure, finding, error, iterations, residual)
 
     def _accept(self, step: Step, candidate: Candidate, decision: Accept) -> float:
@@ -273,6 +278,9 @@ class Loop:
             return self._clock.plan_exactly(wanted)
         if wanted == step.size:
             return step
+        if cause is Cause.ERROR and not self._history.has_past:
+            exchange = self._exchange
+            self._history.look_ahead(exchange.outputs[exchange.value_places], step.size)
         if self._has_events:
             self._switches.abandon()
         following = self._clock.plan(wanted)

@@ -94,7 +94,7 @@ class Master:
         loop, blocks, coupling = self._make_loop(exchange, controller, clock, switches)
         warnings: list[str] = []
         with deferred_interrupt() as interrupt, ExitStack() as cleanup:
-            self._initialise(exchange, clock, stop_time, cleanup)
+            warnings += self._initialise(exchange, clock, stop_time, cleanup)
             first = clock.plan(controller.first_step)
             if loop.rolls_back and self._settings.check_rollback:
                 warnings += check_rollback(loop.saved, first.start, first.size)
@@ -109,7 +109,8 @@ class Master:
                     step_log=loop.log.as_array(),
                     switches=tuple(switches.found),
                     wall_time=perf_counter() - began,
-                    warnings=(*warnings, *coupling.warnings),
+                    warnings=tuple(warnings),
+                    unreliable=tuple(coupling.unreliable),
                     failure=failure,
                 )
 
@@ -253,7 +254,7 @@ class Master:
 
     def _initialise(
         self, exchange: Exchange, clock: Clock, stop_time: float, cleanup: ExitStack
-    ) -> None:
+    ) -> list[str]:
         for stage in exchange.stages:
             cleanup.callback(stage.participant.free)
             cleanup.callback(stage.release)
@@ -262,10 +263,11 @@ class Master:
             stage.participant.enter_initialisation(
                 start_time=clock.time, stop_time=stop_time, tolerance=self._settings.tolerance
             )
-        settle_initial_values(exchange)
+        warnings = settle_initial_values(exchange)
         for stage in exchange.stages:
             stage.participant.exit_initialisation()
             stage.read_outputs()
+        return warnings
 
     def _observe_loop(self, loop: Loop, interrupt: Interrupt, exchange: Exchange) -> StopReason:
         for observer in self._observers:

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from .block import Block
 from .coupling import Attempt, Coupling
 from .decision import Failure
-from .participant import InputShape, Vector
-from .quasi_newton import FixedPoint, Matrix
+from .participant import InputShape, Matrix, Vector
+from .quasi_newton import FixedPoint
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,7 +82,7 @@ class NewtonCoupling:
         Blocks, upstream first.
     """
 
-    warnings = ()
+    unreliable = ()
 
     def __init__(self, equations: list[tuple[Block, FixedPoint]]) -> None:
         self._equations = equations
@@ -113,7 +113,9 @@ class NewtonCoupling:
             def evaluate(values: Vector, block: Block = block) -> Failure | None:
                 return block.step(values, time, step_size)
 
-            solution = equations.solve(evaluate, block.computed, unknowns, known[place])
+            solution = equations.solve(
+                evaluate, block.computed, unknowns, known[place], block.guess
+            )
             self._learned[place] = solution.inverse
             iterations = max(iterations, solution.evaluations)
             residual_norm = max(residual_norm, solution.residual_norm)

@@ -81,6 +81,8 @@ class Outcome:
         What makes the result doubtful, a sentence each.
     failure : str
         Why it failed, a sentence; empty unless it did.
+    unreliable : tuple of str
+        What makes it wrong, although the run went on, a sentence each.
     """
 
     end_time: float
@@ -91,6 +93,7 @@ class Outcome:
     wall_time: float
     warnings: tuple[str, ...] = ()
     failure: str = ""
+    unreliable: tuple[str, ...] = ()
 
     @property
     def finished(self) -> bool:

@@ -21,7 +21,8 @@ class MasterSettings:
     ----------
     tolerance : float or None
         Allowed difference of prediction and result of every exchanged value in one step, relative
-        to its nominal value. None is for fixed steps only, which control no error.
+        to its nominal value, the prediction being a straight line from equal steps. None is for
+        fixed steps only, which control no error.
     algorithm : {'newton', 'gauss_seidel', 'jacobi'}
         How the exchanged values are found.
     extrapolate : bool
@@ -29,8 +30,8 @@ class MasterSettings:
     fixed_step : float or None
         Step size [s] without error control; None for error control.
     initial_step, min_step, max_step : float or None
-        First, smallest and largest step [s]. By default the largest is a tenth of the run, the
-        first a hundredth of the largest and the smallest 1e-6 of the largest. With fixed steps
+        First trial, smallest and largest step [s]. By default the largest is a tenth of the run,
+        the first a hundredth of the largest and the smallest 1e-6 of the largest. With fixed steps
         only `min_step` is used: if given, failing steps are divided down to it.
     coupling_tolerance : float
         Largest residual of the iteration relative to the nominal value.

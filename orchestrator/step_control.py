@@ -11,12 +11,11 @@ order = 2
 safety = 0.9
 growth_limit = 2.0
 shrink_limit = 0.2
-proportional, integral = 0.2 / order, 0.85 / order
-"""Exponents of the PI controller, see Hairer & Wanner, Solving ODEs II, section IV.2."""
 smallest_error = 1e-2
 """Errors below this are all the same to the controller."""
 grid_ratio = 2.0**0.25
 restart_factor = 0.1
+"""First trial after a switch over the step before it."""
 patience = {Cause.ERROR: 1, Cause.CONVERGENCE: 5, Cause.DISCARD: 5, Cause.INVALID: 5}
 """Accepted steps before the step may grow again after a rejection."""
 
@@ -92,10 +91,19 @@ class FixedStep:
 
 
 class ErrorControl:
-    """Keeps the difference of prediction and result near the tolerance with a PI controller.
+    """Keeps the difference of prediction and result below the tolerance.
 
-    Step sizes are taken from a geometric grid below the largest one, since participants may keep
-    operators per step size.
+    The next step is the one at which the curvature just found meets the tolerance, rounded down to
+    a geometric grid below the largest step, since participants may keep operators per step size.
+    The size follows from the present course alone and not from the sizes before it: a conservative
+    system that goes one way and back is stepped alike both ways, so that its errors cancel, which
+    a controller with a memory undoes (Hairer, Lubich & Wanner, Geometric Numerical Integration,
+    section VIII.3).
+
+    A first step, at the start and after a switch, has no past to predict it. Its first trial is
+    only looked at: it is repeated with half its size, the trial giving the slope, and judged like
+    any other step; see Hairer, Norsett & Wanner, Solving ODEs I, section II.4, for starting steps
+    from a trial.
 
     Parameters
     ----------
@@ -122,7 +130,6 @@ class ErrorControl:
         self._sizes = sizes[::-1]
         self.first_step = self._round_down(initial_step)
         self._step = self.first_step
-        self._error_before = 1.0
         self._patience = 0
 
     def decide(self, candidate: Candidate) -> Decision:
@@ -138,22 +145,20 @@ class ErrorControl:
             self._patience = max(self._patience, patience[Cause.ERROR])
             factor = max(shrink_limit, safety * error ** (-1.0 / order))
             return Reject(Cause.ERROR, self._below(candidate.step_size, factor))
-        return Accept(self._next(candidate.step_size, error))
+        unknown = error != error  # noqa: PLR0124 - NaN: nothing was predicted
+        if unknown and candidate.step_size >= 2.0 * self.min_step:
+            return Reject(Cause.ERROR, self._round_down(0.5 * candidate.step_size))
+        return Accept(self._step if unknown else self._next(candidate.step_size, error))
 
     def after_switch(self) -> float:
         """Return a tenth of the step that was going on before the switch."""
-        self._error_before = 1.0
         self._step = self._round_down(max(self.min_step, restart_factor * self._step))
         return self._step
 
     def _next(self, size: float, error: float) -> float:
         patient = self._patience > 0
         self._patience = max(0, self._patience - 1)
-        if error != error:  # noqa: PLR0124 - NaN: nothing was predicted
-            return self._step
-        error = max(error, smallest_error)
-        factor = safety * error**-integral * self._error_before**proportional
-        self._error_before = error
+        factor = safety * max(error, smallest_error) ** (-1.0 / order)
         limit = 1.0 if patient else growth_limit
         factor = min(limit, max(shrink_limit, factor))
         # A step cut short by the stop time or a switch says nothing against the size before it.

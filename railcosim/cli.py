@@ -150,7 +150,7 @@ def run(
             typer.echo(json.dumps(summary.as_dict(), indent=2, allow_nan=False))
         elif not quiet:
             Console().print(summary_table(summary, describe(case)))
-        _check_complete(passage)
+        _check_result(passage)
 
 
 @app.command()
@@ -215,7 +215,7 @@ def cosim(
             typer.echo(json.dumps(summarise_cosim(result), indent=2, allow_nan=False))
         elif not quiet:
             Console().print(cosim_table(result))
-        _check_complete(result)
+        _check_result(result)
 
 
 @app.command()
@@ -298,13 +298,15 @@ def _followed_cosim(
         return run(notify=_say, report=report)
 
 
-def _check_complete(result: xr.Dataset) -> None:
-    """Say why a run ended early, if it did."""
+def _check_result(result: xr.Dataset) -> None:
+    """Say why a run ended early or is wrong, if it did or is."""
     if not result.attrs["complete"]:
         raise RunError(
             f"the run ended at t = {result.attrs['simulated_time']:.6g} s, because "
             f"{result.attrs['stop_reason']}; the result reaches up to there"
         )
+    if result.attrs["unreliable"]:
+        raise RunError(f"the result is wrong: {result.attrs['unreliable'].splitlines()[0]}")
 
 
 @contextmanager

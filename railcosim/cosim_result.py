@@ -72,12 +72,15 @@ def summarise_cosim(result: xr.Dataset) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``end_time`` and ``wall_time`` [s], ``steps`` and the ``final`` value of every output.
+        ``end_time`` and ``wall_time`` [s], ``steps``, the sentences of ``warnings`` and
+        ``unreliable``, and the ``final`` value of every output.
     """
     return {
         "end_time": float(result.attrs["simulated_time"]),
         "steps": asdict(steps_of(result)),
         "wall_time": float(result.attrs["wall_time"]),
+        "warnings": result.attrs["warnings"].splitlines(),
+        "unreliable": result.attrs["unreliable"].splitlines(),
         "final": {
             str(name): series.to_numpy()[-1].item()
             for name, series in result.data_vars.items()

@@ -69,6 +69,7 @@ def statistics(outcome: Outcome) -> dict[str, str | int | float]:
         "iterations": counts.iterations,
         "switches": counts.switches,
         "steps_accepted": counts.accepted,
-        **({"warnings": "\n".join(outcome.warnings)} if outcome.warnings else {}),
+        "warnings": "\n".join(outcome.warnings),
+        "unreliable": "\n".join(outcome.unreliable),
         **{f"steps_rejected_{cause}": number for cause, number in counts.rejected.items()},
     }

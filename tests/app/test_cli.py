@@ -29,13 +29,13 @@ def runs(monkeypatch, make_passage):
     """Let `run` end as it should end, and tell which scenarios were run."""
     seen = []
 
-    def runs(*, ends=None, complete=True):
+    def runs(*, ends=None, complete=True, unreliable=""):
         def run_passage(scenario, **_):
             seen.append(scenario)
             if ends is not None:
                 raise ends
             distance = DISTANCE if complete else DISTANCE[:2]
-            return make_passage(distance, scenario, complete=complete)
+            return make_passage(distance, scenario, complete=complete, unreliable=unreliable)
 
         monkeypatch.setattr(cli, "run_passage", run_passage)
         return seen
@@ -160,6 +160,17 @@ def test_an_interrupted_run_ends_with_1_and_a_valid_result(call, runs, tmp_path)
     assert json.loads(result.stdout)["peak_contact_force"] is None
     with xr.open_dataset(path, engine="h5netcdf") as stored:
         assert stored.attrs["complete"] == 0
+
+
+def test_a_wrong_result_is_written_and_ends_with_1(call, runs, tmp_path):
+    runs(unreliable="The steps are too large.")
+    path = tmp_path / "passage.nc"
+    result = call("run", "--json", "--output", path)
+    assert result.exit_code == 1
+    assert one_sentence(result) == "railcosim: the result is wrong: The steps are too large."
+    assert json.loads(result.stdout)["unreliable"] == ["The steps are too large."]
+    with xr.open_dataset(path, engine="h5netcdf") as stored:
+        assert stored.attrs["unreliable"] == "The steps are too large."
 
 
 @pytest.mark.parametrize(("holds", "code"), [(True, 0), (None, 0), (False, 1)])

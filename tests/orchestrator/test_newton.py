@@ -10,6 +10,7 @@ class Loop:
     """A block that computes exp(-z) for one torn value z."""
 
     unknowns = np.array([0])
+    guess = None
     names = ("z",)
     nominal, lower, upper = np.ones(1), np.full(1, -np.inf), np.full(1, np.inf)
 

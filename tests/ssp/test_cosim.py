@@ -34,7 +34,7 @@ def test_the_numbers_as_json(put, call):
     result = call(put(a_system()), "--json")
     assert (result.exit_code, result.stderr) == (0, "")
     numbers = json.loads(result.stdout)
-    assert set(numbers) == {"end_time", "steps", "wall_time", "final"}
+    assert set(numbers) == {"end_time", "steps", "wall_time", "warnings", "unreliable", "final"}
     assert numbers["end_time"] == 1.5
     assert numbers["steps"]["accepted"] == 4
     assert set(numbers["steps"]["rejected"]) == {
