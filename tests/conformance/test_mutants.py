@@ -45,12 +45,12 @@ def test_the_master_as_it_is_passes():
     assert done.returncode == all_passed, done.stdout
 
 
-quick = {"restores_nothing", "takes_discard_for_success"}
-
-
 @pytest.mark.parametrize(
     "mutant",
-    [pytest.param(name, marks=[] if name in quick else pytest.mark.slow) for name in mutants],
+    [
+        pytest.param(name, marks=[] if name == "restores_nothing" else pytest.mark.slow)
+        for name in mutants
+    ],
 )
 def test_a_master_with_a_mistake_fails(mutant):
     done = examine("-p", "tests.conformance.mutants", "--mutant", mutant)

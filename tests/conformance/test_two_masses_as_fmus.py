@@ -44,9 +44,16 @@ cases = {
 }
 
 
-@pytest.mark.parametrize("split", splits)
-@pytest.mark.parametrize("case", cases)
-def test_observed_order(run, split, case):
+@pytest.mark.parametrize(
+    ("case", "split"),
+    [
+        pytest.param(case, split, marks=[] if quick else pytest.mark.slow)
+        for case in cases
+        for split in splits
+        for quick in [case == "newton" or split == "force/displacement"]
+    ],
+)
+def test_observed_order(run, case, split):
     algorithm, extrapolate, counts, order, slack = cases[case]
     text = oscillator(split, algorithm=algorithm, extrapolate=extrapolate)
     errors = [error(run(text, step=end / steps)) for steps in counts]
