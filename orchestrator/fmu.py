@@ -2,13 +2,14 @@
 
 import logging
 from collections.abc import Mapping, Sequence
-from ctypes import byref, c_char, c_double, c_size_t, c_void_p, create_string_buffer
+from ctypes import byref, c_char, c_double, c_int, c_size_t, c_void_p, create_string_buffer
 from pathlib import Path
 
 from fmpy.fmi2 import fmi2LastSuccessfulTime
 
 from .described import DescribedFmu
 from .errors import ParticipantError
+from .fixed_call import fixed_call, untyped
 from .fmu_description import StartValue
 from .fmu_instance import FmuInstance
 from .fmu_log import FmuLog
@@ -94,8 +95,13 @@ class FmuParticipant(DescribedFmu):
         self._instance = instance
         self._component = instance.component
         functions = instance.functions
-        self._do_step = functions["fmi2DoStep"]
-        self._set_state = functions["fmi2SetFMUstate"]
+        self._time, self._step_size = c_double(), c_double()
+        self._do_step = fixed_call(
+            functions["fmi2DoStep"], self._component, self._time, self._step_size, c_int()
+        )
+        self._get_state = untyped(functions["fmi2GetFMUstate"])
+        self._set_state = untyped(functions["fmi2SetFMUstate"])
+        self._free_state = untyped(functions["fmi2FreeFMUstate"])
         name, status = write_start_values(
             functions, self._component, description, {**self._shape_values, **self._start_values}
         )
@@ -149,7 +155,8 @@ class FmuParticipant(DescribedFmu):
     def step(self, time: float, step_size: float) -> Status:
         """Advance from `time` [s] by `step_size` [s]."""
         self._when = (time, step_size)
-        status = self._do_step(self._component, time, step_size, 0)
+        self._time.value, self._step_size.value = time, step_size
+        status = self._do_step()
         if status < 2:
             return OK
         answer = self._answer("the step", status)
@@ -160,7 +167,9 @@ class FmuParticipant(DescribedFmu):
     def save(self) -> object:
         """Return a new handle of the complete present state."""
         state = c_void_p()
-        self._call("fmi2GetFMUstate", byref(state))
+        status = self._get_state(self._component, byref(state))
+        if status > 1:
+            self._require("fmi2GetFMUstate", status)
         return state
 
     def restore(self, state: object) -> None:
@@ -173,7 +182,9 @@ class FmuParticipant(DescribedFmu):
         """Give up `state`, unless the instance is dead and must not be called."""
         if self._instance is not None and not self._instance.dead:
             assert isinstance(state, c_void_p)
-            self._call("fmi2FreeFMUstate", byref(state))
+            status = self._free_state(self._component, byref(state))
+            if status > 1:
+                self._require("fmi2FreeFMUstate", status)
 
     def serialise(self, state: object) -> bytes:
         """Return `state` as bytes."""

@@ -1,11 +1,12 @@
 """Reading and writing groups of FMU variables: one call per type and nothing allocated."""
 
 from collections.abc import Callable, Mapping, Sequence
-from ctypes import c_char_p, c_double, c_int, c_uint, c_void_p
+from ctypes import c_char_p, c_double, c_int, c_size_t, c_uint, c_void_p
 from typing import Any
 
 import numpy as np
 
+from .fixed_call import fixed_call
 from .fmu_description import FmuDescription, StartValue
 from .participant import Matrix, Vector
 
@@ -44,20 +45,23 @@ class Writer:
         description: FmuDescription,
         names: Sequence[str],
     ) -> None:
-        self._set = functions["fmi2SetReal"]
-        self._component = component
-        self._references = references(description, names)
         self._count = len(names)
-        self._buffer = (c_double * max(len(names), 1))()
-        self._view: Vector = np.frombuffer(memoryview(self._buffer), np.float64, len(names))
+        buffer = (c_double * max(len(names), 1))()
+        self._view: Vector = np.frombuffer(memoryview(buffer), np.float64, len(names))
+        self._set = fixed_call(
+            functions["fmi2SetReal"],
+            component,
+            references(description, names),
+            c_size_t(len(names)),
+            buffer,
+        )
 
     def write(self, values: Vector) -> int:
         """Set `values`, shape (n,), and return the FMI status."""
         if self._count == 0:
             return 0
         self._view[:] = values
-        status: int = self._set(self._component, self._references, self._count, self._buffer)
-        return status
+        return self._set()
 
     def last(self) -> list[float]:
         """Return the values set last."""
@@ -81,28 +85,27 @@ class Reader:
         description: FmuDescription,
         names: Sequence[str],
     ) -> None:
-        self._component = component
         kinds = [storage[description.variables[name].type] for name in names]
-        self._groups: list[tuple[Callable[..., int], Any, int, Any, Any, Any]] = []
+        self._groups: list[tuple[Callable[[], int], Vector, Any]] = []
         for kind in dict.fromkeys(kinds):
             suffix, c_type = kind
             places = [place for place, other in enumerate(kinds) if other == kind]
             buffer = (c_type * len(places))()
-            self._groups.append(
-                (
-                    functions[f"fmi2Get{suffix}"],
-                    references(description, [names[place] for place in places]),
-                    len(places),
-                    buffer,
-                    np.frombuffer(buffer, dtype=np.dtype(c_type)),
-                    slice(None) if len(places) == len(names) else np.array(places),
-                )
+            get = fixed_call(
+                functions[f"fmi2Get{suffix}"],
+                component,
+                references(description, [names[place] for place in places]),
+                c_size_t(len(places)),
+                buffer,
             )
+            view = np.frombuffer(buffer, dtype=np.dtype(c_type))
+            where = slice(None) if len(places) == len(names) else np.array(places)
+            self._groups.append((get, view, where))
 
     def read(self, out: Vector) -> int:
         """Write the values to `out`, shape (n,), Booleans as 0 and 1; return the FMI status."""
-        for get, refs, count, buffer, view, places in self._groups:
-            status = get(self._component, refs, count, buffer)
+        for get, view, places in self._groups:
+            status = get()
             if status > 1:
                 return status
             out[places] = view
