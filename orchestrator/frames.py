@@ -22,7 +22,13 @@ step_times = Struct("<2d")
 experiment = Struct("<3d")
 head = Struct("<Bd")
 
-kinds = (StatusKind.OK, StatusKind.DISCARD, StatusKind.ERROR, StatusKind.FATAL)
+kinds = (
+    StatusKind.OK,
+    StatusKind.DISCARD,
+    StatusKind.EARLY,
+    StatusKind.ERROR,
+    StatusKind.FATAL,
+)
 refused = len(kinds)
 """Code of a report that an operation without a status failed."""
 

@@ -8,10 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .described import DescribedFmu
 from .errors import ParticipantError, SettingsError
-from .fmu import FmuParticipant
-from .fmu_description import StartValue
+from .fmu import DescribedFmu, FmuParticipant, StartValue
 from .frames import Operation, Report, experiment, number, step_times
 from .participant import OK, InputShape, Matrix, Status, StatusKind, Vector
 from .way_back import Point, deserialising, way_to

@@ -209,7 +209,7 @@ class Loop:
             )
 
     def _reject(self, step: Step, candidate: Candidate, decision: Reject) -> Step:
-        cause, wanted = decision
+        cause, wanted, exactly = decision
         self.log.append(candidate, cause)
         error = candidate.failure.participant_error if candidate.failure else None
         if error is not None and self._error_forgiven:
@@ -230,6 +230,9 @@ class Loop:
             return step
         if self._has_events:
             self._switches.abandon()
+        if exactly:
+            self._switches.count(step.start, "Steps ended early")
+            return self._clock.plan_exactly(wanted)
         following = self._clock.plan(wanted)
         if wanted < self._controller.min_step or following.size >= step.size:
             raise StepTooSmallError(

@@ -72,6 +72,8 @@ class StatusKind(Enum):
     OK = "ok"
     DISCARD = "discard"
     """Nothing is wrong, but not with this step: a smaller one may do."""
+    EARLY = "early"
+    """The step ended before its end, and will do when it is repeated up to there."""
     ERROR = "error"
     """The result is unusable; going back to a saved state may help."""
     FATAL = "fatal"
@@ -88,7 +90,8 @@ class Status(NamedTuple):
     message : str
         Which call it was and what it answered.
     last_successful_time : float or None
-        Up to where a discarded step was computed [s], if that is known and beyond the start.
+        Up to where a discarded step was computed [s], if that is known and beyond the start; where
+        an early one ended.
     """
 
     kind: StatusKind

@@ -10,7 +10,11 @@ from .errors import ParticipantError
 from .participant import OK, Participant, Status, StatusKind, Vector
 from .units import Linear, identity
 
-causes = {StatusKind.DISCARD: Cause.DISCARD, StatusKind.ERROR: Cause.INVALID}
+causes = {
+    StatusKind.DISCARD: Cause.DISCARD,
+    StatusKind.EARLY: Cause.DISCARD,
+    StatusKind.ERROR: Cause.INVALID,
+}
 
 
 class Stage:
@@ -161,5 +165,6 @@ class Stage:
             causes[status.kind],
             str(error),
             last_successful_time=status.last_successful_time,
+            ends_early=status.kind is StatusKind.EARLY,
             participant_error=error if status.kind is StatusKind.ERROR else None,
         )

@@ -81,7 +81,8 @@ class FixedStep:
     def decide(self, candidate: Candidate) -> Decision:
         """Accept whatever has a result and ends on a switch if it meets one."""
         if candidate.failure is not None:
-            return Reject(candidate.failure.cause, smaller_step(candidate, self.min_step))
+            early = early_end(candidate) if self.may_reject else None
+            return early or Reject(candidate.failure.cause, smaller_step(candidate, self.min_step))
         if isinstance(candidate.finding, Refine):
             return Reject(Cause.EVENT, candidate.finding.next_step)
         return Accept(self.first_step)
@@ -129,6 +130,9 @@ class ErrorControl:
         """Reject what failed, missed a switch or differs too much from the prediction."""
         failure, finding, error = candidate.failure, candidate.finding, candidate.error_norm
         if failure is not None:
+            early = early_end(candidate)
+            if early is not None:
+                return early
             self._patience = patience[failure.cause]
             self._step = self._round_down(smaller_step(candidate, self.min_step))
             return Reject(failure.cause, self._step)
@@ -171,6 +175,15 @@ class ErrorControl:
         # The margin keeps a grid size that was multiplied by a factor of one where it is.
         place = bisect_right(self._sizes, size * (1.0 + 1e-12))
         return self._sizes[place - 1] if place else size
+
+
+def early_end(candidate: Candidate) -> Reject | None:
+    """Return the order to end the step where a participant ended it early, if one did."""
+    failure = candidate.failure
+    if failure is None or not failure.ends_early or failure.last_successful_time is None:
+        return None
+    reached = failure.last_successful_time - candidate.time
+    return Reject(failure.cause, reached, exactly=True)
 
 
 def smaller_step(candidate: Candidate, min_step: float) -> float:

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from pythonfmu.builder import FmuBuilder
 
-STEP = 0.01
-"""Size of a macro step [s]; the loop swings with a period of 6.3 s."""
+STEP = 2.0**-7
+"""Size of a macro step [s], which adds up without rounding; the loop has a period of 6.3 s."""
 
 PARTNERS = {
     "left": {"gain": 0.1, "rate": 1.0, "start": 1.0},

@@ -4,8 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from ..errors import SystemFileError, WiringError, close_matches
-from ..fmu import FmuParticipant
-from ..fmu_description import StartValue
+from ..fmu import FmuParticipant, StartValue
 from ..system import Connection, System
 from ..units import identity
 from .description import Component, Connector, Link, SystemDescription

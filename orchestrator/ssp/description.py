@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from ..fmu_description import StartValue
+from ..fmu import StartValue
 from ..units import Linear, Unit, identity
 
 SettingValue = float | int | bool | str

@@ -5,7 +5,7 @@ from typing import Any
 
 from lxml import etree
 
-from ..fmu_description import StartValue
+from ..fmu import StartValue
 from ..units import Linear, Unit, base_units, identity
 from .description import (
     Component,

@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from .fmu_description import read_fmu
-from .participant import Variable
-from .units import Unit
+from ..participant import Variable
+from ..units import Unit
+from .reading import read_fmu
 
 
 class DescribedFmu:
@@ -37,12 +37,12 @@ class DescribedFmu:
 
     @property
     def can_save_state(self) -> bool:
-        """Whether it claims canGetAndSetFMUstate."""
+        """Whether it claims to save and restore states."""
         return self._description.can_save_state
 
     @property
     def can_serialise_state(self) -> bool:
-        """Whether it claims canSerializeFMUstate."""
+        """Whether it claims to serialise them."""
         return self._description.can_serialise_state
 
     @property

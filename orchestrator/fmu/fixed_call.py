@@ -25,4 +25,5 @@ def fixed_call(function: Any, *arguments: object) -> Callable[[], int]:  # noqa:
 
     What they hold may change from call to call.
     """
+    assert not any(isinstance(item, (int, float)) for item in arguments), "numbers carry no C type"
     return partial(untyped(function), *arguments)
