@@ -95,7 +95,7 @@ def make_rows(*, short: bool) -> list[Row]:
         ("jacobi, recorded", Coupled(settings=settings("jacobi"), recorded=True), "jacobi"),
         ("newton", Coupled(settings=newton), "newton"),
         ("newton, recorded", Coupled(settings=newton, recorded=True), "newton"),
-        ("newton, error control", Coupled(settings=controlled), "newton"),
+        ("newton, error control", Coupled(settings=controlled), None),
     ):
         rows.append(Row(name=name, run=way, algorithm=algorithm))
     if short:

@@ -1,6 +1,7 @@
 """The master's own time per step, by the benchmark, next to bare calls of the same FMUs."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -10,15 +11,15 @@ import pytest
 root = Path(__file__).resolve().parents[2]
 
 limits = {
-    "jacobi": 6.0,
-    "gauss_seidel": 6.0,
+    "jacobi": 5.5,
+    "gauss_seidel": 5.5,
     "gauss_seidel, extrapolated": 7.0,
-    "jacobi, recorded": 10.0,
-    "newton": 16.0,
-    "newton, recorded": 20.0,
-    "newton, error control": 18.0,
+    "jacobi, recorded": 9.0,
+    "newton": 15.0,
+    "newton, recorded": 18.0,
+    "newton, error control": 17.0,
 }
-"""Over the time of the raw calls in the same process: about twice what is measured."""
+"""Over the time of the raw calls in the same process: less than twice what a quiet machine measures."""
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +30,7 @@ def rows():
             str(root / "benchmarks" / "master.py"),
             *("--short", "--json", "--steps", "1000", "--repetitions", "15"),
         ],
-        cwd=root,
+        env={**os.environ, "PYTHONPATH": str(root)},
         capture_output=True,
         text=True,
         check=False,
@@ -46,7 +47,7 @@ def test_a_step_costs_a_few_times_the_bare_calls(rows, name):
 
 def test_what_is_timed_gives_the_right_numbers(rows):
     checked = [row for row in rows.values() if row["error"] is not None]
-    assert len(checked) == 8
+    assert len(checked) == 7
     # Explicit rows differ by rounding, implicit ones by the tolerance of the iteration.
     assert max(row["error"] for row in checked) < 1e-8
 
