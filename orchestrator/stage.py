@@ -111,7 +111,7 @@ class Stage:
         status = self._set_inputs(self.inputs)
         if status is OK:
             status = self._get_outputs(self.outputs)
-            if status is OK and isfinite(self._outputs_dot(self._zeros)):
+            if status is OK and self.outputs.dot(self._zeros) == 0.0:
                 return None
         return self._failure(status, None, None)
 

@@ -19,7 +19,7 @@ limits = {
     "newton, recorded": 18.0,
     "newton, error control": 17.0,
 }
-"""Over the time of the raw calls in the same process: less than twice what a quiet machine measures."""
+"""Over the raw calls in the same process: less than twice what a quiet machine measures."""
 
 
 @pytest.fixture(scope="module")
