@@ -51,6 +51,9 @@ class Explicit:
         return ExplicitCoupling(blocks, extrapolates=self.extrapolates)
 
 
+stepped_once = Attempt(None, 1, float("nan"))
+
+
 class ExplicitCoupling:
     """One sweep over the blocks of a system.
 
@@ -88,7 +91,7 @@ class ExplicitCoupling:
             failure = block.step(values[block.unknowns], time, step_size)
             if failure is not None:
                 return Attempt(failure, 1, float("nan"))
-        return Attempt(None, 1, float("nan"))
+        return stepped_once
 
     def commit(self) -> None:
         """Compare what was prescribed in the last attempt with what came out."""

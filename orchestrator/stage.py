@@ -1,6 +1,7 @@
 """A participant in its place in the system: its slices of the exchanged values and its state."""
 
 from collections.abc import Mapping, Sequence
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,6 +57,7 @@ class Stage:
         self.output_names = tuple(output_names)
         self.observed_names = tuple(observed_names)
         self._zeros = np.zeros_like(outputs)
+        self._outputs_dot = outputs.dot
         self._state: object = None
         self._moved = False
         # Nothing is added to the calls of a participant that takes all its inputs as they are.
@@ -113,7 +115,7 @@ class Stage:
             if status is OK:
                 status = self._get_outputs(self.outputs)
                 # Zero times infinity or NaN is NaN: one product finds any of them.
-                if status is OK and self.outputs.dot(self._zeros) == 0.0:
+                if status is OK and isfinite(self._outputs_dot(self._zeros)):
                     return None
         return self._failure(status, time, step_size)
 

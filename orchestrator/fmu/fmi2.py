@@ -16,6 +16,7 @@ from fmpy.fmi2 import (
 
 from ..participant import OK, Status, StatusKind
 from .description import FmuDescription
+from .fixed_call import fixed_call
 from .instance import Call, FmuInstance, asks_for_the_end
 from .log import FmuLog
 from .states import StateFunctions
@@ -37,7 +38,10 @@ class Fmi2Instance(FmuInstance):
 
     def __init__(self, description: FmuDescription, name: str, log: FmuLog) -> None:
         super().__init__(description, name, log)
-        self._do_step = self.functions["fmi2DoStep"]
+        self._time, self._step_size = c_double(), c_double()
+        self._do_step = fixed_call(
+            self.functions["fmi2DoStep"], self.component, self._time, self._step_size, c_int()
+        )
 
     def _load(self, **arguments: str) -> Any:  # noqa: ANN401 - fmpy carries no types
         return FMU2Slave(**arguments)
@@ -54,7 +58,8 @@ class Fmi2Instance(FmuInstance):
 
     def step(self, time: float, step_size: float) -> Status:
         """Advance from `time` [s] by `step_size` [s]."""
-        status = self._do_step(self.component, time, step_size, 0)
+        self._time.value, self._step_size.value = time, step_size
+        status = self._do_step()
         if status < 2:
             return OK
         answer = self.answer("the step", status)

@@ -7,6 +7,7 @@ from fmpy.fmi3 import FMU3Slave
 
 from ..participant import OK, Status, StatusKind
 from .description import FmuDescription
+from .fixed_call import fixed_call
 from .instance import Call, FmuInstance, asks_for_the_end
 from .log import FmuLog
 from .states import StateFunctions
@@ -35,11 +36,16 @@ class Fmi3Instance(FmuInstance):
 
     def __init__(self, description: FmuDescription, name: str, log: FmuLog) -> None:
         super().__init__(description, name, log)
-        self._do_step = self.functions["fmi3DoStep"]
         self._event, self._over, self._early = c_bool(), c_bool(), c_bool()
-        self._reached = c_double()
-        self._ends = tuple(
-            byref(item) for item in (self._event, self._over, self._early, self._reached)
+        self._time, self._step_size, self._reached = c_double(), c_double(), c_double()
+        ends = (byref(item) for item in (self._event, self._over, self._early, self._reached))
+        self._do_step = fixed_call(
+            self.functions["fmi3DoStep"],
+            self.component,
+            self._time,
+            self._step_size,
+            c_bool(),
+            *ends,
         )
 
     def _load(self, **arguments: str) -> Any:  # noqa: ANN401 - fmpy carries no types
@@ -62,8 +68,9 @@ class Fmi3Instance(FmuInstance):
 
     def step(self, time: float, step_size: float) -> Status:
         """Advance from `time` [s] by `step_size` [s]."""
+        self._time.value, self._step_size.value = time, step_size
         self._reached.value = time
-        status = self._do_step(self.component, time, step_size, False, *self._ends)
+        status = self._do_step()
         if status < 2 and not self._early.value and not self._over.value:
             return OK
         return self._not_whole(status, time, step_size)

@@ -10,6 +10,7 @@ from ..participant import OK, InputShape, Matrix, Status, Vector
 from .derivatives import DirectionalDerivatives
 from .described import DescribedFmu
 from .description import StartValue
+from .fixed_call import untyped
 from .fmi2 import Fmi2Instance
 from .fmi3 import Fmi3Instance
 from .input_slopes import InputSlopes
@@ -110,7 +111,10 @@ class FmuParticipant(DescribedFmu):
         self._read_observed = Reader(target, observed).read
         self._derivatives = DirectionalDerivatives(target, inputs=inputs, outputs=outputs)
         self._advance = instance.step
-        self._set_state = instance.functions[instance.state_functions.set]
+        names = instance.state_functions
+        self._get_state, self._set_state, self._free_state = (
+            untyped(instance.functions[function]) for function in (names.get, names.set, names.free)
+        )
         self._component = instance.component
         self._slopes = None
         if self._input_way.uses_slopes:

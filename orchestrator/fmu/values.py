@@ -1,8 +1,7 @@
 """Reading and writing groups of FMU variables: one call per type and nothing allocated."""
 
 from collections.abc import Callable, Mapping, Sequence
-from ctypes import c_uint, c_void_p
-from functools import partial
+from ctypes import c_size_t, c_uint, c_void_p
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..participant import Vector
 from .description import FmuDescription, StartValue
+from .fixed_call import fixed_call
 
 FmiFunctions = Mapping[str, Callable[..., Any]]
 """Raw functions of the shared library by FMI name."""
@@ -35,9 +35,13 @@ class Target(NamedTuple):
     description: FmuDescription
 
     def bind(self, action: str, *arguments: object) -> Callable[[], int]:
-        """Return a function such as ``SetReal`` with its arguments in place."""
+        """Return a function such as ``SetReal`` with its arguments in place.
+
+        These are ctypes objects, or whole numbers for counts.
+        """
         name = f"fmi{self.description.fmi_version}{action}"
-        return partial(self.functions[name], self.component, *arguments)
+        ready = (c_size_t(item) if isinstance(item, int) else item for item in arguments)
+        return fixed_call(self.functions[name], self.component, *ready)
 
 
 class Layout:

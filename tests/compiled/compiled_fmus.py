@@ -1,4 +1,4 @@
-"""FMUs in C that the tests compile: a mass, a gain, and one with every type of FMI 3.0."""
+"""FMUs in C that the tests compile: three small models, and one with every type of FMI 3.0."""
 
 import subprocess
 import sys
@@ -46,6 +46,13 @@ gain = (
     real("y", "output", depends_on=(0,)),
     real("gain", start="1"),
 )
+integrator = (
+    real("u", "input", "0"),
+    real("y", "output", depends_on=(0,)),
+    real("gain", start="0"),
+    real("rate", start="1"),
+    real("start", start="0"),
+)
 integers = [f"{sign}Int{bits}" for bits in (8, 16, 32, 64) for sign in ("", "U")]
 types = (
     real("u", "input", "10 20 30", size=(3,)),
@@ -61,7 +68,7 @@ types = (
     Entry("flags", "Boolean", start="false", size=(2,)),
     Entry("mirror", "Boolean", "output", size=(2,)),
 )
-models = {"mass": mass, "gain": gain, "types": types}
+models = {"mass": mass, "gain": gain, "integrator": integrator, "types": types}
 fmi2_types = {"Float64": "Real", "Int32": "Integer", "Boolean": "Boolean"}
 
 
@@ -78,7 +85,7 @@ def build(folder, name, *, fmi_version=2, model="mass", **claims):
         Its model name.
     fmi_version : {2, 3}
         2.0 or 3.0.
-    model : {'mass', 'gain', 'types'}
+    model : {'mass', 'gain', 'integrator', 'types'}
         ``types`` is for FMI 3.0 only.
     **claims
         Attributes of CoSimulation in place of the usual ones, as FMI 2.0 names them.

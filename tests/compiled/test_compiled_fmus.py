@@ -4,7 +4,10 @@ import pytest
 from fmpy import simulate_fmu
 from fmpy.validation import validate_fmu
 
-every_fmu = [("mass", 2), ("mass", 3), ("gain", 2), ("gain", 3), ("types", 3)]
+every_fmu = [
+    *((model, version) for model in ("mass", "gain", "integrator") for version in (2, 3)),
+    ("types", 3),
+]
 
 
 @pytest.mark.parametrize(("model", "fmi_version"), every_fmu)
@@ -38,3 +41,16 @@ def test_the_gain_has_no_memory(compiled_fmu, fmi_version):
         use_event_mode=False,
     )
     assert history["y"].tolist() == [-1.5] * 3
+
+
+@pytest.mark.parametrize("fmi_version", [2, 3])
+def test_the_integrator_adds_up_its_input(compiled_fmu, fmi_version):
+    history = simulate_fmu(
+        str(compiled_fmu("integrator", fmi_version)),
+        start_values={"u": 3.0, "rate": 2.0, "gain": -0.5, "start": 0.25},
+        output=["y"],
+        stop_time=0.5,
+        output_interval=0.25,
+        use_event_mode=False,
+    )
+    assert history["y"].tolist() == [0.25, 0.25, 1.75]
