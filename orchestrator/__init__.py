@@ -1,5 +1,6 @@
 """A co-simulation master for any FMUs, with rollback, event location and error control."""
 
+from .audit_report import AuditReport
 from .coupling import Algorithm, Attempt, Coupling
 from .decision import Accept, Candidate, Cause, Decision, Failure, Landed, Refine, Reject
 from .errors import (
@@ -39,6 +40,7 @@ __all__ = [
     "Accept",
     "Algorithm",
     "Attempt",
+    "AuditReport",
     "Candidate",
     "Cause",
     "Connection",

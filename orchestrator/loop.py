@@ -5,6 +5,7 @@ from time import perf_counter
 
 import numpy as np
 
+from .audit import Audit
 from .block import Block
 from .clock import Clock, Step
 from .coupling import Coupling
@@ -55,6 +56,8 @@ class Loop:
 
     Attributes
     ----------
+    audit : Audit or None
+        Repeats accepted steps, if the settings want it.
     saved : list of Stage
         Those whose states are saved at every accepted point.
     log : StepLog
@@ -97,6 +100,15 @@ class Loop:
         # What has no continuous value to predict makes no error that could be seen.
         self._unpredicted = nan if exchange.continuous.any() else 0.0
         self._error_forgiven = False
+        self.audit: Audit | None = None
+        if settings.audit is not None:
+            self.audit = Audit(
+                exchange,
+                coupling,
+                self.saved,
+                every=settings.audit,
+                tolerance=settings.tolerance if controller.uses_error else None,
+            )
         self.log = StepLog()
 
     def run(self, interrupt: Interrupt) -> StopReason:
@@ -181,6 +193,9 @@ class Loop:
         self.log.append(candidate, 0)
         self._error_forgiven = False
         self._coupling.commit()
+        saved = self.audit is not None and self.audit.accept(
+            time, size, self._history.last, self._predicted
+        )
         self._clock.advance(step)
         outputs = self._exchange.outputs
         values = outputs[self._exchange.value_places]
@@ -198,7 +213,7 @@ class Loop:
             indicators = outputs[self._exchange.indicator_places].tolist()
             landed = finding if isinstance(finding, Landed) else None
             self._switches.accept(self._clock.time, size, indicators, landed)
-        if not self._clock.finished:
+        if not (saved or self._clock.finished):
             for stage in self.saved:
                 stage.save()
         self._observation.notify(self._clock.time)

@@ -9,7 +9,7 @@ from time import perf_counter
 from .block import Block, tear
 from .clock import Clock, Step
 from .coupling import Algorithm, Coupling
-from .errors import SettingsError, WiringError
+from .errors import RollbackError, SettingsError, WiringError
 from .events import Switches
 from .exchange import Exchange
 from .initialisation import settle_initial_values
@@ -120,8 +120,9 @@ class Master:
             step_log=loop.log.as_array(),
             switches=tuple(switches.found),
             wall_time=perf_counter() - began,
-            warnings=tuple(warnings),
+            warnings=(*warnings, *(loop.audit.warnings() if loop.audit else ())),
             unreliable=tuple(coupling.unreliable),
+            audit=loop.audit.report() if loop.audit else None,
         )
 
     def _review_loops(
@@ -172,7 +173,8 @@ class Master:
     ) -> tuple[Loop, list[Block], Coupling]:
         algorithm = self._algorithm
         blocks = tear(exchange, everything=algorithm.tears_everything, last=None)
-        varies = controller.grid is None or controller.may_reject or bool(self._events)
+        audited = self._settings.audit is not None
+        varies = controller.grid is None or controller.may_reject or bool(self._events) or audited
         rolls_back = varies or algorithm.couple(blocks).iterates
         if varies:
             self._check_steps_may_vary()
@@ -181,6 +183,11 @@ class Master:
             delay_allowed = algorithm.allows_delay and not controller.uses_error
             place = place_without_rollback(self._system, delay_allowed=delay_allowed)
             if place is not None:
+                if audited:
+                    raise RollbackError(
+                        f"{self._system.participants[place].name} cannot save its state, so that "
+                        "no step can be repeated for the audit; leave the setting audit out."
+                    )
                 self._check_indicators_are_not_of(self._system.participants[place].name)
                 blocks = tear(exchange, everything=algorithm.tears_everything, last=place)
                 last = blocks.pop()

@@ -7,6 +7,8 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from .audit_report import AuditReport
+
 
 class StopReason(Enum):
     """Why the run ended."""
@@ -80,6 +82,8 @@ class Outcome:
         What makes the result doubtful, a sentence each.
     unreliable : tuple of str
         What makes it wrong, although the run went on, a sentence each.
+    audit : AuditReport or None
+        What repeating steps in halves found, if the settings wanted it.
     """
 
     end_time: float
@@ -90,6 +94,7 @@ class Outcome:
     wall_time: float
     warnings: tuple[str, ...] = ()
     unreliable: tuple[str, ...] = ()
+    audit: AuditReport | None = None
 
     @property
     def finished(self) -> bool:

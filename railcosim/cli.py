@@ -170,6 +170,10 @@ def cosim(
     ] = None,
     min_step: Annotated[float | None, typer.Option(metavar="S", help="Smallest step.")] = None,
     max_step: Annotated[float | None, typer.Option(metavar="S", help="Largest step.")] = None,
+    audit: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="Measure the error of every N-th step by two half steps."),
+    ] = None,
     event: Annotated[
         list[str] | None,
         typer.Option(
@@ -194,6 +198,7 @@ def cosim(
             step=step,
             min_step=min_step,
             max_step=max_step,
+            audit=audit,
             events=tuple(event or ()),
         )
         if output is not None:

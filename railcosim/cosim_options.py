@@ -33,6 +33,8 @@ class CosimOptions:
         Fixed step without error control [s].
     min_step, max_step : float or None
         Smallest and largest step [s].
+    audit : int or None
+        Every so many accepted steps are repeated in two halves.
     events : tuple of str
         Event indicators in place of the file's.
     """
@@ -43,6 +45,7 @@ class CosimOptions:
     step: float | None = None
     min_step: float | None = None
     max_step: float | None = None
+    audit: int | None = None
     events: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -79,6 +82,7 @@ class CosimOptions:
             "fixed_step": self.step,
             "min_step": self.min_step,
             "max_step": self.max_step,
+            "audit": self.audit,
         }
         chosen |= {name: value for name, value in given.items() if value is not None}
         if "fixed_step" not in chosen:

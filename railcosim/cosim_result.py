@@ -73,7 +73,7 @@ def summarise_cosim(result: xr.Dataset) -> dict[str, Any]:
     -------
     dict
         ``end_time`` and ``wall_time`` [s], ``steps``, the sentences of ``warnings`` and
-        ``unreliable``, and the ``final`` value of every output.
+        ``unreliable``, the ``audit`` if there was one and the ``final`` value of every output.
     """
     return {
         "end_time": float(result.attrs["simulated_time"]),
@@ -81,6 +81,7 @@ def summarise_cosim(result: xr.Dataset) -> dict[str, Any]:
         "wall_time": float(result.attrs["wall_time"]),
         "warnings": result.attrs["warnings"].splitlines(),
         "unreliable": result.attrs["unreliable"].splitlines(),
+        **({"audit": json.loads(result.attrs["audit"])} if "audit" in result.attrs else {}),
         "final": {
             str(name): series.to_numpy()[-1].item()
             for name, series in result.data_vars.items()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import asdict
 from importlib.metadata import version
 from platform import python_version
 from typing import TYPE_CHECKING
@@ -71,5 +73,6 @@ def statistics(outcome: Outcome) -> dict[str, str | int | float]:
         "steps_accepted": counts.accepted,
         "warnings": "\n".join(outcome.warnings),
         "unreliable": "\n".join(outcome.unreliable),
+        **({} if outcome.audit is None else {"audit": json.dumps(asdict(outcome.audit))}),
         **{f"steps_rejected_{cause}": number for cause, number in counts.rejected.items()},
     }

@@ -3,7 +3,7 @@
 from dataclasses import fields
 
 from ..errors import close_matches
-from ..settings import MasterSettings
+from ..settings import MasterSettings, counts
 from .description import MasterChoices, SettingValue
 from .documents import Element
 
@@ -14,7 +14,6 @@ setting_names = tuple(item.name for item in fields(MasterSettings))
 """Attributes that the element ``master:Master`` may have."""
 
 _truths = ("extrapolate", "check_rollback")
-_counts = ("max_iterations", "max_switches", "max_rejections", "max_attempts")
 
 
 def read_master(annotations: Element | None) -> MasterChoices:
@@ -84,4 +83,4 @@ def _read_setting(master: Element, name: str) -> SettingValue:
         return master.need(name)
     if name in _truths:
         return master.truth(name)
-    return master.integer(name) if name in _counts else master.number(name)
+    return master.integer(name) if name in counts else master.number(name)
