@@ -1,6 +1,7 @@
 """A co-simulation master for any FMUs, with rollback, event location and error control."""
 
 from .audit_report import AuditReport
+from .bond import Bond, BondReport
 from .coupling import Algorithm, Attempt, Coupling
 from .decision import Accept, Candidate, Cause, Decision, Failure, Landed, Refine, Reject
 from .errors import (
@@ -41,6 +42,8 @@ __all__ = [
     "Algorithm",
     "Attempt",
     "AuditReport",
+    "Bond",
+    "BondReport",
     "Candidate",
     "Cause",
     "Connection",

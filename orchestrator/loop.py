@@ -15,6 +15,7 @@ from .events import Switches
 from .exchange import Exchange
 from .explanation import explain
 from .interrupt import Interrupt
+from .ledger import Ledger
 from .observation import Observation
 from .observers import Observer
 from .outcome import StopReason
@@ -51,6 +52,8 @@ class Loop:
         Whether anything needs the prediction of exchanged values.
     observers : sequence of Observer
         Who sees the accepted points.
+    ledger : Ledger or None
+        Adds up the energy of bonds, if there are any.
     settings : MasterSettings
         Tolerance and limits.
 
@@ -76,6 +79,7 @@ class Loop:
         rolls_back: bool,
         predicts: bool,
         observers: Sequence[Observer],
+        ledger: Ledger | None,
         settings: MasterSettings,
     ) -> None:
         self._exchange = exchange
@@ -92,6 +96,7 @@ class Loop:
         self.rolls_back = rolls_back
         self._predicts = predicts
         self._observation = Observation(exchange, late, observers)
+        self._ledger = ledger
         self._settings = settings
         self._history = History(exchange.lower, exchange.upper)
         self._predicted: Vector = self._history.last
@@ -159,6 +164,8 @@ class Loop:
         self._history.restart(outputs[self._exchange.value_places])
         if self._has_events:
             self._switches.start(outputs[self._exchange.indicator_places].tolist())
+        if self._ledger is not None:
+            self._ledger.start()
         for stage in self.saved:
             stage.save()
         time, observation = self._clock.time, self._observation
@@ -201,6 +208,8 @@ class Loop:
         values = outputs[self._exchange.value_places]
         wanted = decision.next_step
         finding = candidate.finding
+        if self._ledger is not None:
+            self._ledger.accept(size, switched=isinstance(finding, Landed))
         if isinstance(finding, Landed):
             self._history.restart(values)
             self._coupling.forget()

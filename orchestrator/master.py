@@ -7,6 +7,7 @@ from math import inf
 from time import perf_counter
 
 from .block import Block, tear
+from .bond import Bond
 from .clock import Clock, Step
 from .coupling import Algorithm, Coupling
 from .errors import RollbackError, SettingsError, WiringError
@@ -14,6 +15,7 @@ from .events import Switches
 from .exchange import Exchange
 from .initialisation import settle_initial_values
 from .interrupt import Interrupt, deferred_interrupt
+from .ledger import Ledger
 from .loop import Loop
 from .loop_gain import estimate_loop_gains, review_loop_gains
 from .observers import Observer
@@ -43,6 +45,8 @@ class Master:
         Signed outputs, as ``participant.variable``, whose changes of sign are located.
     observers : sequence of Observer
         Who sees the accepted points.
+    bonds : sequence of Bond
+        Pairs of connections whose energy is added up.
 
     Raises
     ------
@@ -59,6 +63,7 @@ class Master:
         controller: StepController | None = None,
         events: Sequence[str] = (),
         observers: Sequence[Observer] = (),
+        bonds: Sequence[Bond] = (),
     ) -> None:
         self._system = system
         self._settings = settings
@@ -66,6 +71,7 @@ class Master:
         self._controller = controller
         self._events = tuple(events)
         self._observers = tuple(observers)
+        self._bonds = tuple(bonds)
         for path in self._events:
             system.find(path)
 
@@ -103,7 +109,8 @@ class Master:
             input_shape=self._algorithm.input_shape,
         )
         switches = self._make_switches(duration)
-        loop, blocks, coupling = self._make_loop(exchange, controller, clock, switches)
+        ledger = Ledger(exchange, self._bonds) if self._bonds else None
+        loop, blocks, coupling = self._make_loop(exchange, controller, clock, switches, ledger)
         warnings: list[str] = []
         with deferred_interrupt() as interrupt, ExitStack() as cleanup:
             self._initialise(exchange, clock, stop_time, cleanup)
@@ -120,9 +127,14 @@ class Master:
             step_log=loop.log.as_array(),
             switches=tuple(switches.found),
             wall_time=perf_counter() - began,
-            warnings=(*warnings, *(loop.audit.warnings() if loop.audit else ())),
+            warnings=(
+                *warnings,
+                *(loop.audit.warnings() if loop.audit else ()),
+                *(ledger.warnings() if ledger else ()),
+            ),
             unreliable=tuple(coupling.unreliable),
             audit=loop.audit.report() if loop.audit else None,
+            bonds=ledger.reports() if ledger else (),
         )
 
     def _review_loops(
@@ -169,7 +181,12 @@ class Master:
         )
 
     def _make_loop(
-        self, exchange: Exchange, controller: StepController, clock: Clock, switches: Switches
+        self,
+        exchange: Exchange,
+        controller: StepController,
+        clock: Clock,
+        switches: Switches,
+        ledger: Ledger | None,
     ) -> tuple[Loop, list[Block], Coupling]:
         algorithm = self._algorithm
         blocks = tear(exchange, everything=algorithm.tears_everything, last=None)
@@ -202,6 +219,7 @@ class Master:
             rolls_back=rolls_back,
             predicts=algorithm.uses_prediction or controller.uses_error,
             observers=self._observers,
+            ledger=ledger,
             settings=self._settings,
         )
         return loop, blocks, coupling

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .audit_report import AuditReport
+from .bond import BondReport
 
 
 class StopReason(Enum):
@@ -84,6 +85,8 @@ class Outcome:
         What makes it wrong, although the run went on, a sentence each.
     audit : AuditReport or None
         What repeating steps in halves found, if the settings wanted it.
+    bonds : tuple of BondReport
+        Energy that every bond made or lost.
     """
 
     end_time: float
@@ -95,6 +98,7 @@ class Outcome:
     warnings: tuple[str, ...] = ()
     unreliable: tuple[str, ...] = ()
     audit: AuditReport | None = None
+    bonds: tuple[BondReport, ...] = ()
 
     @property
     def finished(self) -> bool:

@@ -1,0 +1,53 @@
+"""Connections that carry power together, and what they made or lost of it."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bond:
+    """Two connections that carry power together, in opposite directions.
+
+    Attributes
+    ----------
+    force : str
+        Output of one participant that drives the other: a force or a moment.
+    motion : str
+        Output of the other that drives the first: the displacement or velocity that `force` acts
+        along.
+    kind : {'displacement', 'velocity'}
+        Which of the two `motion` is.
+    """
+
+    force: str
+    motion: str
+    kind: Literal["displacement", "velocity"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BondReport:
+    """Energy that a bond made out of nothing or lost.
+
+    Attributes
+    ----------
+    force, motion : str
+        The bond.
+    residual : float
+        Work that the participant with the motion saw less the work that the other one saw, in the
+        product of the units of the outputs: J for N and m or m/s.
+    largest : float
+        Largest magnitude of the residual on the way.
+    exchanged : float
+        Work exchanged, each step counted as positive.
+    """
+
+    force: str
+    motion: str
+    residual: float
+    largest: float
+    exchanged: float
+
+    @property
+    def relative(self) -> float:
+        """Largest residual over the work exchanged, 0 where nothing was."""
+        return self.largest / self.exchanged if self.exchanged else 0.0
