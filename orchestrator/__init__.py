@@ -1,7 +1,7 @@
 """A co-simulation master for any FMUs, with rollback, event location and error control."""
 
 from .audit_report import AuditReport
-from .bond import Bond, BondReport
+from .bond import Bond, BondReport, bond_by_unit
 from .coupling import Algorithm, Attempt, Coupling
 from .decision import Accept, Candidate, Cause, Decision, Failure, Landed, Refine, Reject
 from .errors import (
@@ -93,6 +93,7 @@ __all__ = [
     "Verdict",
     "WiringError",
     "ZenoError",
+    "bond_by_unit",
     "check_fmu",
     "convert",
 ]

@@ -170,6 +170,13 @@ def cosim(
     ] = None,
     min_step: Annotated[float | None, typer.Option(metavar="S", help="Smallest step.")] = None,
     max_step: Annotated[float | None, typer.Option(metavar="S", help="Largest step.")] = None,
+    bond: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FORCE,MOTION",
+            help="Outputs that carry power: add up the energy made or lost; may be repeated.",
+        ),
+    ] = None,
     audit: Annotated[
         int | None,
         typer.Option(metavar="N", help="Measure the error of every N-th step by two half steps."),
@@ -199,6 +206,7 @@ def cosim(
             min_step=min_step,
             max_step=max_step,
             audit=audit,
+            bonds=tuple(bond or ()),
             events=tuple(event or ()),
         )
         if output is not None:

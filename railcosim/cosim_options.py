@@ -37,6 +37,8 @@ class CosimOptions:
         Every so many accepted steps are repeated in two halves.
     events : tuple of str
         Event indicators in place of the file's.
+    bonds : tuple of str
+        ``force,motion`` in place of the file's.
     """
 
     stop_time: float | None = None
@@ -47,6 +49,7 @@ class CosimOptions:
     max_step: float | None = None
     audit: int | None = None
     events: tuple[str, ...] = ()
+    bonds: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.step is not None and self.max_step is not None:
@@ -88,6 +91,24 @@ class CosimOptions:
         if "fixed_step" not in chosen:
             chosen.setdefault("tolerance", DEFAULT_TOLERANCE)
         return MasterSettings(**{"tolerance": None, **chosen})
+
+    def pairs(self, master: MasterChoices) -> tuple[tuple[str, str], ...]:
+        """Return forces and motions of the bonds.
+
+        Raises
+        ------
+        InputError
+            For one that is not of the form ``force,motion``.
+        """
+        pairs = []
+        for text in self.bonds:
+            force, comma, motion = text.partition(",")
+            if not (force and comma and motion):
+                raise InputError(
+                    f"--bond {text} must name two outputs, as in spring.force,ball.velocity"
+                )
+            pairs.append((force.strip(), motion.strip()))
+        return tuple(pairs) or master.bonds
 
     def span(self, description: SystemDescription) -> tuple[float, float]:
         """Return start and end of the run [s].

@@ -60,6 +60,10 @@ def doubts(outcome: Outcome, system: System) -> list[str]:
     return [*outcome.warnings, *incidents]
 
 
+def _bonds(outcome: Outcome) -> list[dict[str, str | float]]:
+    return [asdict(bond) | {"relative": bond.relative} for bond in outcome.bonds]
+
+
 def statistics(outcome: Outcome) -> dict[str, str | int | float]:
     """Say how the run went."""
     counts = outcome.statistics
@@ -74,5 +78,6 @@ def statistics(outcome: Outcome) -> dict[str, str | int | float]:
         "warnings": "\n".join(outcome.warnings),
         "unreliable": "\n".join(outcome.unreliable),
         **({} if outcome.audit is None else {"audit": json.dumps(asdict(outcome.audit))}),
+        **({"bonds": json.dumps(_bonds(outcome))} if outcome.bonds else {}),
         **{f"steps_rejected_{cause}": number for cause, number in counts.rejected.items()},
     }

@@ -43,15 +43,19 @@ def read_master(annotations: Element | None) -> MasterChoices:
     master = ours[0].child("master:Master")
     if master is None:
         raise ours[0].error("master:Master is missing")
-    master.allow(attributes=setting_names, children=["master:Event"])
+    master.allow(attributes=setting_names, children=["master:Event", "master:Bond"])
     events = []
-    for event in master.children():
+    for event in master.children("master:Event"):
         event.allow(attributes=["indicator"])
         events.append(event.need("indicator"))
+    bonds = []
+    for bond in master.children("master:Bond"):
+        bond.allow(attributes=["force", "motion"])
+        bonds.append((bond.need("force"), bond.need("motion")))
     settings = {
         name: _read_setting(master, name) for name in setting_names if master.text(name) is not None
     }
-    return MasterChoices(settings=settings, events=tuple(events))
+    return MasterChoices(settings=settings, events=tuple(events), bonds=tuple(bonds))
 
 
 def refuse_master(annotations: Element | None) -> None:

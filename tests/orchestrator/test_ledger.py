@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from fake_participants import oscillators
+from fake_participants import Linear, oscillators
 
-from orchestrator import Bond, Master, MasterSettings, WiringError
+from orchestrator import Bond, Master, MasterSettings, System, WiringError, bond_by_unit
 
 k = kc = 10.0
 by_displacement = Bond(force="second.force", motion="first.displacement", kind="displacement")
@@ -79,3 +79,17 @@ def test_what_is_no_bond_is_refused():
     bond = Bond(force="second.force", motion="second.own_displacement", kind="displacement")
     with pytest.raises(WiringError, match="each has to drive the participant of the other one"):
         run(10, bond)
+
+
+def moving(unit):
+    matrices = {"A": [[0]], "B": [[1]], "C": [[1]], "D": [[0]], "x0": [0]}
+    details = {"y": {"unit": unit}}
+    return System([Linear("a", inputs=["u"], outputs=["y"], details=details, **matrices)], [])
+
+
+def test_the_unit_says_what_the_motion_is():
+    kinds = {unit: bond_by_unit(moving(unit), "a.y", "a.y").kind for unit in ("m", "rad", "m/s")}
+    assert kinds == {"m": "displacement", "rad": "displacement", "m/s": "velocity"}
+    for unit in (None, "N", "m/s2"):
+        with pytest.raises(WiringError, match=f"a.y has the unit {unit!r}"):
+            bond_by_unit(moving(unit), "a.y", "a.y")

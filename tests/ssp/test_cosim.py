@@ -60,6 +60,20 @@ def test_the_numbers_as_json(put, call):
     }
 
 
+@pytest.mark.parametrize(
+    ("bond", "part"),
+    [
+        ("a.y", "--bond a.y must name two outputs"),
+        ("a.y,b.nothing", "b has no variable 'nothing'"),
+        ("a.y,a.y", "a.y has the unit"),
+    ],
+)
+def test_what_is_no_bond_ends_with_2(put, call, bond, part):
+    result = call(put(a_system()), "--bond", bond)
+    assert result.exit_code == 2
+    assert part in " ".join(result.stderr.split())
+
+
 def test_an_audit_is_reported_as_json(put, call):
     numbers = json.loads(call(put(a_system()), "--json", "--audit", "2").stdout)
     assert numbers["audit"]["steps"] == 2
