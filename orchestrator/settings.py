@@ -45,7 +45,9 @@ class MasterSettings:
     max_switches : int
         Switches allowed within `switch_window`.
     switch_window : float or None
-        Time span for `max_switches` [s]; 1e-6 of the run by default.
+        Time span for `max_switches` [s]; 1e-6 of the run by default, which lets fast switching
+        pass. Impacts that accumulate want less patience, such as 20 switches in a tenth of the
+        time between the first two.
     max_rejections : int
         Rejected attempts in a row that end the run.
     max_attempts : int or None
