@@ -2,6 +2,8 @@
 
 import logging
 
+from .audit_report import AuditReport
+from .bond import Bond, BondReport, bond_by_unit
 from .coupling import Algorithm, Attempt, Coupling
 from .decision import Accept, Candidate, Cause, Decision, Failure, Landed, Refine, Reject
 from .errors import (
@@ -45,6 +47,9 @@ __all__ = [
     "Accept",
     "Algorithm",
     "Attempt",
+    "AuditReport",
+    "Bond",
+    "BondReport",
     "Candidate",
     "Cause",
     "Connection",
@@ -96,6 +101,7 @@ __all__ = [
     "Verdict",
     "WiringError",
     "ZenoError",
+    "bond_by_unit",
     "check_fmu",
     "convert",
 ]

@@ -5,6 +5,7 @@ from time import perf_counter
 
 import numpy as np
 
+from .audit import Audit
 from .block import Block
 from .clock import Clock, Step
 from .coupling import Coupling
@@ -15,6 +16,7 @@ from .exchange import Exchange
 from .explanation import explain
 from .interrupt import Interrupt
 from .last_attempt import LastAttempt
+from .ledger import Ledger
 from .observation import Observation
 from .observers import Observer
 from .outcome import StopReason
@@ -51,11 +53,15 @@ class Loop:
         Whether anything needs the prediction of exchanged values.
     observers : sequence of Observer
         Who sees the accepted points.
+    ledger : Ledger or None
+        Adds up the energy of bonds, if there are any.
     settings : MasterSettings
         Tolerance and limits.
 
     Attributes
     ----------
+    audit : Audit or None
+        Repeats accepted steps, if the settings want it.
     saved : list of Stage
         Those whose states are saved at every accepted point.
     log : StepLog
@@ -74,6 +80,7 @@ class Loop:
         rolls_back: bool,
         predicts: bool,
         observers: Sequence[Observer],
+        ledger: Ledger | None,
         settings: MasterSettings,
     ) -> None:
         self._exchange = exchange
@@ -90,6 +97,7 @@ class Loop:
         self.rolls_back = rolls_back
         self._predicts = predicts
         self._observation = Observation(exchange, late, observers)
+        self._ledger = ledger
         self._settings = settings
         self._history = History(exchange.lower, exchange.upper)
         self._predicted: Vector = self._history.last
@@ -99,6 +107,15 @@ class Loop:
         self._unpredicted = nan if exchange.continuous.any() else 0.0
         self._error_forgiven = False
         self._attempting: Step | None = None
+        self.audit: Audit | None = None
+        if settings.audit is not None:
+            self.audit = Audit(
+                exchange,
+                coupling,
+                self.saved,
+                every=settings.audit,
+                tolerance=settings.tolerance if controller.uses_error else None,
+            )
         self.log = StepLog()
 
     def run(self, interrupt: Interrupt) -> StopReason:
@@ -143,6 +160,8 @@ class Loop:
         self._history.restart(outputs[self._exchange.value_places])
         if self._has_events:
             self._switches.start(outputs[self._exchange.indicator_places].tolist())
+        if self._ledger is not None:
+            self._ledger.start()
         for stage in self.saved:
             stage.save()
         time, observation = self._clock.time, self._observation
@@ -226,11 +245,16 @@ class Loop:
         self.log.append(candidate, 0)
         self._error_forgiven = False
         self._coupling.commit()
+        saved = self.audit is not None and self.audit.accept(
+            time, size, self._history.last, self._predicted
+        )
         self._clock.advance(step)
         outputs = self._exchange.outputs
         values = outputs[self._exchange.value_places]
         wanted = decision.next_step
         finding = candidate.finding
+        if self._ledger is not None:
+            self._ledger.accept(size, switched=isinstance(finding, Landed))
         if isinstance(finding, Landed):
             self._history.restart(values)
             self._coupling.forget()
@@ -243,7 +267,7 @@ class Loop:
             indicators = outputs[self._exchange.indicator_places].tolist()
             landed = finding if isinstance(finding, Landed) else None
             self._switches.accept(self._clock.time, size, indicators, landed)
-        if not self._clock.finished:
+        if not (saved or self._clock.finished):
             for stage in self.saved:
                 stage.save()
         self._observation.notify(self._clock.time)

@@ -7,6 +7,9 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from .audit_report import AuditReport
+from .bond import BondReport
+
 
 class StopReason(Enum):
     """Why the run ended."""
@@ -83,6 +86,10 @@ class Outcome:
         Why it failed, a sentence; empty unless it did.
     unreliable : tuple of str
         What makes it wrong, although the run went on, a sentence each.
+    audit : AuditReport or None
+        What repeating steps in halves found, if the settings wanted it.
+    bonds : tuple of BondReport
+        Energy that every bond made or lost.
     """
 
     end_time: float
@@ -94,6 +101,8 @@ class Outcome:
     warnings: tuple[str, ...] = ()
     failure: str = ""
     unreliable: tuple[str, ...] = ()
+    audit: AuditReport | None = None
+    bonds: tuple[BondReport, ...] = ()
 
     @property
     def finished(self) -> bool:

@@ -77,6 +77,14 @@ class Stage:
         if before is not None:
             self.participant.release(before)
 
+    def adopt(self, state: object) -> None:
+        """Go to `state` and keep it in place of the one saved before."""
+        self._restore(state)
+        before, self._state = self._state, state
+        self._moved = False
+        if before is not None:
+            self.participant.release(before)
+
     def release(self) -> None:
         """Give up the saved state."""
         state, self._state = self._state, None

@@ -8,7 +8,7 @@ from .errors import SettingsError
 
 order = 2
 """The difference of a straight-line prediction and the result is O(h^order)."""
-safety = 0.9
+safety = 0.8
 growth_limit = 2.0
 shrink_limit = 0.2
 smallest_error = 1e-2

@@ -172,6 +172,17 @@ def cosim(
     ] = None,
     min_step: Annotated[float | None, typer.Option(metavar="S", help="Smallest step.")] = None,
     max_step: Annotated[float | None, typer.Option(metavar="S", help="Largest step.")] = None,
+    bond: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FORCE,MOTION",
+            help="Outputs that carry power: add up the energy made or lost; may be repeated.",
+        ),
+    ] = None,
+    audit: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="Measure the error of every N-th step by two half steps."),
+    ] = None,
     event: Annotated[
         list[str] | None,
         typer.Option(
@@ -198,6 +209,8 @@ def cosim(
             step=step,
             min_step=min_step,
             max_step=max_step,
+            audit=audit,
+            bonds=tuple(bond or ()),
             events=tuple(event or ()),
         )
         if output is not None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from threadpoolctl import threadpool_limits
 
 import orchestrator
-from orchestrator import LastPoint, Master, Recorder
+from orchestrator import LastPoint, Master, Recorder, bond_by_unit
 from orchestrator.ssp import open_system
 
 from .cosim_result import label_result
@@ -101,6 +101,7 @@ def _run(
         controller=control,
         events=options.events or choices.events,
         observers=[recorder],
+        bonds=[bond_by_unit(opened.system, *pair) for pair in options.pairs(choices)],
     )
     outcome = master.run(start, stop)
     if notify is not None:

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 DTYPES = {"Real": np.float64, "Integer": np.int64, "Enumeration": np.int64, "Boolean": np.bool_}
 """How values of a type are kept."""
 
+EXTRAS = ("audit", "bonds")
+"""What the master reports only where it was asked to."""
+
 SHOWN = 20
 """Final values that the table for the terminal shows."""
 
@@ -73,7 +76,8 @@ def summarise_cosim(result: xr.Dataset) -> dict[str, Any]:
     -------
     dict
         ``end_time`` and ``wall_time`` [s], ``steps``, the sentences of ``warnings`` and
-        ``unreliable``, and the ``final`` value of every output.
+        ``unreliable``, ``audit`` and ``bonds`` where there are any and the ``final`` value of
+        every output.
     """
     return {
         "end_time": float(result.attrs["simulated_time"]),
@@ -81,6 +85,7 @@ def summarise_cosim(result: xr.Dataset) -> dict[str, Any]:
         "wall_time": float(result.attrs["wall_time"]),
         "warnings": result.attrs["warnings"].splitlines(),
         "unreliable": result.attrs["unreliable"].splitlines(),
+        **{name: json.loads(result.attrs[name]) for name in EXTRAS if name in result.attrs},
         "final": {
             str(name): series.to_numpy()[-1].item()
             for name, series in result.data_vars.items()

@@ -145,10 +145,13 @@ class MasterChoices:
         Some of the attributes of `orchestrator.MasterSettings` by name.
     events : tuple of str
         Event indicators as ``component.variable``.
+    bonds : tuple of (str, str)
+        Forces and the motions they act along, as ``component.variable``.
     """
 
     settings: Mapping[str, SettingValue] = field(default_factory=dict)
     events: tuple[str, ...] = ()
+    bonds: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
