@@ -11,6 +11,7 @@ from .motion import initial_speed
 from .sections import Track
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from typing import Literal
 
     from build_fmus import FmuPaths
@@ -39,7 +40,12 @@ def connect(
         For an FMU that is missing, corrupt or another one.
     """
     sources = fmu_sources(scenario, paths, law, timeout=timeout)
-    return System([source.open() for source in sources], connections(scenario.vehicle.wheels))
+    return join(sources, scenario.vehicle.wheels)
+
+
+def join(sources: Iterable[FmuSource], wheels: int) -> System:
+    """Open the FMUs and connect them over so many wheels."""
+    return System([source.open() for source in sources], connections(wheels))
 
 
 def fmu_sources(

@@ -32,6 +32,9 @@ FIGURE_SUFFIXES = (".png", ".pdf", ".svg")
 ROWS_AT_ONCE = 4096
 """Rows of a table that are in memory together as Python numbers."""
 
+REPLAY_SUFFIX = ".replay"
+"""End of the name of a file that repeats how a run failed."""
+
 OVERHEAD = 4 * 2**20
 """Room for what a NetCDF file holds besides its arrays [bytes]."""
 
@@ -105,7 +108,7 @@ def write_dataset(passage: xr.Dataset, path: Path) -> None:
         ".csv": _write_csv,
         ".parquet": _write_parquet,
     }
-    with _replacing(path) as temporary:
+    with replacing(path) as temporary:
         writers[path.suffix.lower()](passage, temporary)
 
 
@@ -117,12 +120,12 @@ def write_figure(figure: Figure, path: Path) -> None:
     RunError
         Where it cannot be written.
     """
-    with _replacing(path) as temporary:
+    with replacing(path) as temporary:
         figure.savefig(temporary, dpi=150)
 
 
 @contextmanager
-def _replacing(path: Path) -> Iterator[Path]:
+def replacing(path: Path) -> Iterator[Path]:
     """Yield a temporary file that takes the place of ``path`` if the block succeeds."""
     try:
         with tempfile.TemporaryDirectory(dir=path.parent, prefix=TEMPORARY) as folder:

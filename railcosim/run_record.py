@@ -69,7 +69,7 @@ def statistics(outcome: Outcome) -> dict[str, str | int | float]:
     counts = outcome.statistics
     return {
         "complete": int(outcome.finished),
-        "stop_reason": outcome.reason.value,
+        "stop_reason": outcome.failure or outcome.reason.value,
         "simulated_time": outcome.end_time,
         "wall_time": outcome.wall_time,
         "iterations": counts.iterations,

@@ -233,3 +233,21 @@ def test_wrong_command_lines_end_with_2_and_one_line(arguments, message):
     assert message in answer.stderr
     assert answer.stderr.count("\n") == 1
     assert answer.stdout == ""
+
+
+def test_a_passage_that_fails_keeps_its_result_and_can_be_replayed(tmp_path):
+    """A tolerance that the smallest step allowed cannot meet."""
+    keys = ("tolerance=1e-7", "min_step=1e-4")
+    options = [word for key in keys for word in ("--set", f"master.{key}")]
+    output, runner = tmp_path / "passage.nc", CliRunner()
+    failed = runner.invoke(cli.app, ["run", "--quiet", "--output", str(output), *options])
+    assert failed.exit_code == 1
+    with xr.open_dataset(output, engine="h5netcdf") as stored:
+        assert stored.attrs["complete"] == 0
+        assert stored.attrs["stop_reason"] in failed.stderr
+    answer = runner.invoke(cli.app, ["replay", str(tmp_path / "passage.replay"), "--json"])
+    assert (answer.exit_code, answer.stderr) == (0, "")
+    numbers = json.loads(answer.stdout)
+    assert numbers["reproduced"]
+    assert not numbers["from_start"]
+    assert {step["participant"] for step in numbers["steps"]} == {"vehicle", "track"}
