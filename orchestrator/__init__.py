@@ -3,7 +3,8 @@
 import logging
 
 from .audit_report import AuditReport
-from .bond import Bond, BondReport, bond_by_unit
+from .bond import Bond, bond_by_unit
+from .bond_report import BondReport
 from .coupling import Algorithm, Attempt, Coupling
 from .decision import Accept, Candidate, Cause, Decision, Failure, Landed, Refine, Reject
 from .errors import (

@@ -2,7 +2,8 @@
 
 from collections.abc import Sequence
 
-from .bond import Bond, BondReport
+from .bond import Bond
+from .bond_report import BondReport
 from .errors import WiringError
 from .exchange import Exchange, Wire
 

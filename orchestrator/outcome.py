@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .audit_report import AuditReport
-from .bond import BondReport
+from .bond_report import BondReport
 
 
 class StopReason(Enum):
