@@ -3,6 +3,7 @@
 #   make test     format, lint, types and the quick tests
 #   make check    the same with the slow tests
 #   make bench    the benchmarks, one table each
+#   make hosts    other co-simulation tools for the benchmarks, into .venv-hosts (`make bench` does it, too)
 #   make fmus     the FMUs, into dist/
 # PYTHON=/path/to/python3 chooses the interpreter that makes .venv.
 
@@ -11,10 +12,13 @@ VENV := .venv
 BIN := $(VENV)/bin
 INSTALLED := $(VENV)/installed-pyproject.toml
 
+HOSTS := .venv-hosts
+HOSTS_NEEDED := benchmarks/overhead/host_scripts/requirements.txt
+
 # The matrices are small: BLAS threads cost more than they bring, most of all beside `pytest -n`.
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: run test check bench fmus lint
+.PHONY: run test check bench hosts fmus lint
 .DELETE_ON_ERROR:
 
 run: $(INSTALLED)
@@ -34,7 +38,10 @@ lint: $(INSTALLED)
 	$(BIN)/mypy --strict
 
 bench: $(INSTALLED)
+	@$(MAKE) --no-print-directory hosts || echo "going on without other hosts" >&2
 	@set -e; for script in benchmarks/*.py; do echo "$$script"; $(BIN)/python "$$script"; done
+
+hosts: $(HOSTS)/installed-requirements.txt
 
 fmus: $(INSTALLED)
 	$(BIN)/railcosim build
@@ -51,3 +58,10 @@ $(INSTALLED): pyproject.toml
 	  $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'; \
 	fi
 	@cp pyproject.toml $@
+
+$(HOSTS)/installed-requirements.txt: $(HOSTS_NEEDED)
+	@echo "setting up $(HOSTS) for the benchmarks, once; this takes a minute"
+	@$(PYTHON) -m venv $(HOSTS)
+	@$(HOSTS)/bin/python -m pip install --quiet --disable-pip-version-check -r $(HOSTS_NEEDED)
+	@$(HOSTS)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps cofmupy==1.0.0
+	@cp $(HOSTS_NEEDED) $@

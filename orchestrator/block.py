@@ -5,9 +5,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from .decision import Failure
-from .exchange import Exchange, Indices, Wire
+from .exchange import Exchange, Wire
+from .interface_jacobian import InterfaceJacobian, Link
 from .ordering import coupled_blocks, order_of_fewest_torn
 from .participant import Vector
+from .quasi_newton import Guess
+from .stage import Indices
 
 
 class Block:
@@ -32,6 +35,9 @@ class Block:
         Their names.
     nominal, lower, upper : numpy.ndarray, shape (n,)
         Their scale and bounds.
+    guess : callable or None
+        Returns the inverse Jacobian that the directional derivatives of the participants lead to,
+        if they give them.
     """
 
     def __init__(self, exchange: Exchange, order: Sequence[int], torn: Sequence[Wire]) -> None:
@@ -47,9 +53,23 @@ class Block:
         self._sources: Indices = exchange.value_places[self.unknowns]
         self._torn_inputs: Indices = np.array([wire.input for wire in torn], np.intp)
         self._torn_values: Indices = places.astype(np.intp)
-        self._plan = [
-            (exchange.stages[place], *_direct(exchange, place, torn)) for place in self.order
-        ]
+        direct = {
+            place: [w for w in exchange.wires if w.target_stage == place and w not in torn]
+            for place in self.order
+        }
+        self._plan = [(exchange.stages[place], *_places(wires)) for place, wires in direct.items()]
+        ends = np.cumsum([0, *(stage.outputs.size for stage in exchange.stages)])
+        jacobian = InterfaceJacobian(
+            exchange,
+            unknowns=self.unknowns,
+            torn=torn,
+            chain=[
+                Link(place, wires, np.arange(ends[place], ends[place + 1], dtype=np.intp))
+                for place, wires in direct.items()
+            ],
+            declared=lambda participant: participant.dependencies,
+        )
+        self.guess: Guess | None = jacobian.inverse if jacobian.available else None
 
     def step(self, unknowns: Vector, time: float, step_size: float) -> Failure | None:
         """Step every participant from `time` by `step_size` [s] with the torn values `unknowns`."""
@@ -64,27 +84,12 @@ class Block:
                 return failure
         return None
 
-    def exchange(self, unknowns: Vector) -> Failure | None:
-        """Pass values through every participant without a step."""
-        if self._torn_inputs.size:
-            self._inputs[self._torn_inputs] = unknowns[self._torn_values]
-        for stage, into, source in self._plan:
-            if into is not None:
-                self._inputs[into] = self._outputs[source]
-            failure = stage.exchange()
-            if failure is not None:
-                return failure
-        return None
-
     def computed(self) -> Vector:
         """Return what has been computed for the torn values, shape (n,)."""
         return self._outputs[self._sources]
 
 
-def _direct(
-    exchange: Exchange, place: int, torn: Sequence[Wire]
-) -> tuple[Indices | None, Indices | None]:
-    wires = [wire for wire in exchange.wires if wire.target_stage == place and wire not in torn]
+def _places(wires: Sequence[Wire]) -> tuple[Indices | None, Indices | None]:
     if not wires:
         return None, None
     return (
@@ -93,8 +98,24 @@ def _direct(
     )
 
 
+def _memory_first(exchange: Exchange, group: Sequence[int]) -> list[int]:
+    """Put those first whose outputs answer through their states only.
+
+    An input that is only expected spoils the outputs of the others at once.
+    """
+
+    def passes_on(place: int) -> bool:
+        stage = exchange.stages[place]
+        return stage.passes_on(stage.participant.dependencies)
+
+    return sorted(group, key=passes_on)
+
+
 def tear(exchange: Exchange, *, everything: bool, last: int | None) -> list[Block]:
     """Divide the system into blocks.
+
+    A step is one call that takes all inputs and gives all outputs, and what an output owes to an
+    input through states is not declared: participants are coupled as a whole.
 
     Parameters
     ----------
@@ -121,7 +142,7 @@ def tear(exchange: Exchange, *, everything: bool, last: int | None) -> list[Bloc
     groups.sort(key=lambda group: last in group)
     blocks = []
     for group in groups:
-        order = order_of_fewest_torn(group, links)
+        order = order_of_fewest_torn(_memory_first(exchange, group), links)
         rank = {place: n for n, place in enumerate(order)}
         torn = [
             wire

@@ -5,7 +5,7 @@ from typing import NamedTuple, Protocol
 
 from .block import Block
 from .decision import Failure
-from .participant import InputShape, Vector
+from .participant import InputShape, Matrix, Vector
 
 
 class Attempt(NamedTuple):
@@ -38,8 +38,8 @@ class Coupling(Protocol):
         """Whether an attempt steps a participant more than once."""
 
     @property
-    def warnings(self) -> Sequence[str]:
-        """What was in doubt on the way, a sentence each."""
+    def unreliable(self) -> Sequence[str]:
+        """What makes the result wrong, a sentence each."""
 
     def attempt(self, time: float, step_size: float, last: Vector, predicted: Vector) -> Attempt:
         """Try the step from `time` by `step_size` [s].
@@ -56,6 +56,12 @@ class Coupling(Protocol):
         DivergenceError
             When the accepted steps leave no hope.
         """
+
+    def known(self, step_size: float) -> Sequence[Matrix | None]:
+        """Return the Jacobians of an attempt of `step_size` [s], as far as there are any."""
+
+    def learn(self, jacobians: Sequence[Matrix | None]) -> None:
+        """Start the next attempt from these Jacobians, which `known` gave."""
 
     def forget(self) -> None:
         """Keep nothing: the participants have switched."""

@@ -32,6 +32,8 @@ class Failure(NamedTuple):
         A clause that names the participant or the unknown and what went wrong.
     last_successful_time : float or None
         Up to where the participant that refused could compute [s].
+    ends_early : bool
+        Whether the step has to be repeated up to exactly there.
     participant_error : ParticipantError or None
         The error a participant reported, which is forgiven once.
     """
@@ -39,6 +41,7 @@ class Failure(NamedTuple):
     cause: Cause
     message: str
     last_successful_time: float | None = None
+    ends_early: bool = False
     participant_error: ParticipantError | None = None
 
 
@@ -81,7 +84,8 @@ class Candidate(NamedTuple):
     finding : Refine or Landed or None
         What the indicators say of the result; None: no switch.
     error_norm : float
-        Difference of prediction and result over the tolerance; NaN when nothing was predicted.
+        Difference of prediction and result over the tolerance, as if the step before had been of
+        the same size; NaN when nothing was predicted.
     iterations : int
         How often the coupled participants were stepped.
     residual_norm : float
@@ -118,10 +122,13 @@ class Reject(NamedTuple):
         Why.
     next_step : float
         Size of the next attempt [s].
+    exactly : bool
+        Whether the next attempt must have that size to the bit, however small.
     """
 
     cause: Cause
     next_step: float
+    exactly: bool = False
 
 
 Decision = Accept | Reject

@@ -26,7 +26,7 @@ fewest_windows = 4
 """An impact is unresolved for one or two windows; it takes more than that to diverge."""
 
 lasting_windows = 20
-"""Unresolved misses that last so long are worth a warning."""
+"""Unresolved misses that last so long make the result worthless."""
 
 
 class DivergenceMonitor:
@@ -46,8 +46,8 @@ class DivergenceMonitor:
     def __init__(self, names: Sequence[str], nominal: Vector) -> None:
         self._names = tuple(names)
         self._nominal = nominal
-        self._misses = np.zeros((window, len(self._names)))
-        self._values = np.zeros((window, len(self._names)))
+        self._prescribed = np.zeros((window, len(self._names)))
+        self._computed = np.zeros((window, len(self._names)))
         self._count = 0
         self._restarted = True
         self._streak: list[float] = []
@@ -68,17 +68,17 @@ class DivergenceMonitor:
         if self._restarted:
             self._restarted = False
             return
-        np.subtract(computed, prescribed, out=self._misses[self._count])
-        self._values[self._count] = computed
+        self._prescribed[self._count] = prescribed
+        self._computed[self._count] = computed
         self._count += 1
         if self._count == window:
             self._count = 0
             self._examine(time)
 
     def _examine(self, time: float) -> None:
-        misses = np.abs(self._misses).max(axis=0)
+        misses = np.abs(self._computed - self._prescribed).max(axis=0)
         scaled = misses / self._nominal
-        large = (scaled > quiet) & (misses > unresolved * np.ptp(self._values, axis=0))
+        large = (scaled > quiet) & (misses > unresolved * np.ptp(self._computed, axis=0))
         if not large.any():
             self._streak.clear()
             return

@@ -3,6 +3,9 @@
 from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
 
+from .last_attempt import LastAttempt
+from .outcome import Outcome
+
 
 class OrchestratorError(Exception):
     """Base of every error the package raises on purpose."""
@@ -13,7 +16,19 @@ class InputError(OrchestratorError, ValueError):
 
 
 class RunError(OrchestratorError, RuntimeError):
-    """The co-simulation had to stop."""
+    """The co-simulation had to stop.
+
+    Attributes
+    ----------
+    outcome : Outcome or None
+        How far it came; None where it had not begun to step.
+    last_attempt : LastAttempt or None
+        What it takes to repeat the attempt that failed, where every participant can serialise its
+        state and has not died.
+    """
+
+    outcome: Outcome | None = None
+    last_attempt: LastAttempt | None = None
 
 
 class SettingsError(InputError):
@@ -21,7 +36,7 @@ class SettingsError(InputError):
 
 
 class FmuError(InputError):
-    """A file is no usable FMI 2.0 co-simulation FMU, or a start value does not fit it."""
+    """A file is no usable FMI 2.0 or 3.0 co-simulation FMU, or a start value does not fit it."""
 
 
 class SystemFileError(InputError):
@@ -95,6 +110,11 @@ class ParticipantError(RunError):
         values = f" with {list_inputs(self.inputs)}" if self.inputs else ""
         log = f"; it logged: {' | '.join(self.messages)}" if self.messages else ""
         super().__init__(f"{participant}: {failure}{where}{values}{log}.")
+
+
+def without_log(message: str) -> str:
+    """Return a message without what a participant logged."""
+    return message.partition("; it logged: ")[0].rstrip(".")
 
 
 def list_inputs(inputs: Mapping[str, float], limit: int = 12) -> str:

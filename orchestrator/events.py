@@ -52,6 +52,16 @@ class Switches:
         self._bracket: Bracket | None = None
         self._tried: Bracket | None = None
 
+    @property
+    def values(self) -> tuple[float, ...]:
+        """Indicators at the accepted point."""
+        return self._values
+
+    @property
+    def searching(self) -> bool:
+        """Whether attempts are made to land on a switch."""
+        return self._bracket is not None
+
     def start(self, values: Sequence[float]) -> None:
         """Take the sides from the initial values; one that is zero takes its side on leaving."""
         self._sides = [0] * len(values)
@@ -128,18 +138,28 @@ class Switches:
                 self._switch(time, place)
         self._settle(values)
 
+    def count(self, time: float, what: str) -> None:
+        """Count something that may happen without end, at `time` [s].
+
+        Raises
+        ------
+        ZenoError
+            When it happens too often.
+        """
+        if len(self._recent) == self._limit and time - self._recent[0] < self._window:
+            raise ZenoError(
+                f"{what} {self._limit + 1} times within {self._window:.3g} s up to "
+                f"t = {time:.9g} s, which looks like no end of it; "
+                "change the model or allow more switches in the settings."
+            )
+        self._recent.append(time)
+
     def _switch(self, time: float, place: int) -> None:
         self._sides[place] = -self._sides[place]
         self._at_rest[place] = True
         name = self.names[place]
         self.found.append(Switch(time=time, indicator=name, positive=self._sides[place] > 0))
-        if len(self._recent) == self._limit and time - self._recent[0] < self._window:
-            raise ZenoError(
-                f"{name} and others switched {self._limit + 1} times within {self._window:.3g} s "
-                f"up to t = {time:.9g} s, which looks like no end of it; "
-                "change the model or allow more switches in the settings."
-            )
-        self._recent.append(time)
+        self.count(time, f"{name} and others switched")
 
     def _settle(self, values: Sequence[float]) -> None:
         self._values = tuple(values)

@@ -8,11 +8,9 @@ from numpy.typing import NDArray
 
 from .errors import WiringError
 from .participant import InputShape, Variable, Vector
-from .stage import Stage
+from .stage import Indices, Stage
 from .system import System
 from .units import Linear, identity
-
-Indices = NDArray[np.intp]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,7 +8,7 @@ import numpy as np
 from .block import Block
 from .coupling import Attempt, Coupling
 from .divergence import DivergenceMonitor
-from .participant import InputShape, Vector
+from .participant import InputShape, Matrix, Vector
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,6 +51,9 @@ class Explicit:
         return ExplicitCoupling(blocks, extrapolates=self.extrapolates)
 
 
+stepped_once = Attempt(None, 1, float("nan"))
+
+
 class ExplicitCoupling:
     """One sweep over the blocks of a system.
 
@@ -76,8 +79,8 @@ class ExplicitCoupling:
         self._prescribed = np.empty(0)
 
     @property
-    def warnings(self) -> Sequence[str]:
-        """What was in doubt on the way, a sentence each."""
+    def unreliable(self) -> Sequence[str]:
+        """What was not resolved for long, a sentence each."""
         return [monitor.warning for _, monitor in self._loops if monitor.warning]
 
     def attempt(self, time: float, step_size: float, last: Vector, predicted: Vector) -> Attempt:
@@ -88,12 +91,19 @@ class ExplicitCoupling:
             failure = block.step(values[block.unknowns], time, step_size)
             if failure is not None:
                 return Attempt(failure, 1, float("nan"))
-        return Attempt(None, 1, float("nan"))
+        return stepped_once
 
     def commit(self) -> None:
         """Compare what was prescribed in the last attempt with what came out."""
         for block, monitor in self._loops:
             monitor.accept(self._prescribed[block.unknowns], block.computed(), self._time)
+
+    def known(self, _step_size: float) -> Sequence[Matrix | None]:
+        """Nothing is ever learned."""
+        return ()
+
+    def learn(self, jacobians: Sequence[Matrix | None]) -> None:
+        """There is nothing to learn."""
 
     def forget(self) -> None:
         """Expect nothing of the next step."""

@@ -10,7 +10,7 @@ import numpy as np
 from fmpy.validation import validate_fmu
 
 from .errors import OrchestratorError, ParticipantError, SettingsError
-from .fmu_description import StartValue
+from .fmu import StartValue
 from .isolated import DEFAULT_TIMEOUT, IsolatedParticipant
 from .participant import OK
 

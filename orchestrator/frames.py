@@ -22,7 +22,13 @@ step_times = Struct("<2d")
 experiment = Struct("<3d")
 head = Struct("<Bd")
 
-kinds = (StatusKind.OK, StatusKind.DISCARD, StatusKind.ERROR, StatusKind.FATAL)
+kinds = (
+    StatusKind.OK,
+    StatusKind.DISCARD,
+    StatusKind.EARLY,
+    StatusKind.ERROR,
+    StatusKind.FATAL,
+)
 refused = len(kinds)
 """Code of a report that an operation without a status failed."""
 
@@ -42,6 +48,7 @@ class Operation(IntEnum):
     SERIALISE = 10
     DESERIALISE = 11
     TERMINATE = 12
+    GET_DERIVATIVES = 13
 
 
 class Report(NamedTuple):

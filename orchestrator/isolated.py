@@ -1,23 +1,18 @@
 """An FMU in a process of its own: it may crash or hang without taking the run with it."""
 
 import json
-import logging
 from collections.abc import Mapping, Sequence
 from math import nan
 from pathlib import Path
 
 import numpy as np
 
-from .described import DescribedFmu
 from .errors import ParticipantError, SettingsError
-from .fmu import FmuParticipant
-from .fmu_description import StartValue
+from .fmu import DescribedFmu, FmuParticipant, StartValue
 from .frames import Operation, Report, experiment, number, step_times
-from .participant import OK, InputShape, Status, StatusKind, Vector
-from .way_back import Point, deserialising, way_to
-from .worker_process import WorkerLostError, WorkerProcess
-
-logger = logging.getLogger(__name__)
+from .participant import OK, InputShape, Matrix, Status, Vector
+from .resumed_process import ResumedProcess
+from .worker_process import WorkerLostError
 
 DEFAULT_TIMEOUT = 60.0
 """Longest answer to one call, start-up of the process included [s]."""
@@ -33,9 +28,7 @@ class IsolatedParticipant(DescribedFmu):
     one: a step and its outputs cost one exchange of messages. States stay in that process and are
     known here by number.
 
-    After a crash the FMU is started anew once, from the last serialised state, and repeats the
-    steps since then; a second crash at the same point is the end, and so is a hang. Both answer as
-    `StatusKind.FATAL`.
+    One crash at a point is survived, see `ResumedProcess`; a hang is not.
 
     Parameters
     ----------
@@ -83,16 +76,10 @@ class IsolatedParticipant(DescribedFmu):
         self._inputs: Vector = np.empty(0)
         self._outputs: Vector = np.empty(0)
         self._outputs_known = False
-        self._worker: WorkerProcess | None = None
-        self._when: tuple[float | None, float | None] = (None, None)
+        self._process: ResumedProcess | None = None
+        self._step_size: float | None = None
         self._messages: tuple[str, ...] = ()
-        self._pending = self._setup = b""
-        # Points are kept from the first serialised state on: without one there is no way back.
-        self._point: Point | None = None
-        self._confirmed: Point | None = None
-        self._states: dict[int, Point | None] = {}
         self._numbers = 0
-        self._crashed_at: float | None = None
 
     @property
     def input_shape(self) -> InputShape:
@@ -107,7 +94,7 @@ class IsolatedParticipant(DescribedFmu):
     @property
     def process(self) -> int | None:
         """Number of the process, while there is one."""
-        return None if self._worker is None else self._worker.number
+        return None if self._process is None else self._process.number
 
     def bind(
         self,
@@ -127,17 +114,17 @@ class IsolatedParticipant(DescribedFmu):
     def instantiate(self) -> None:
         """Start the process and create the instance in it."""
         self.free()
-        self._messages, self._when, self._crashed_at = (), (None, None), None
-        self._pending = self._setup = b""
-        self._point = self._confirmed = None
-        self._states.clear()
+        self._messages, self._step_size = (), None
+        self._process = None
         self._inputs = np.zeros(len(self._bound[0]))
         self._outputs = np.zeros(len(self._bound[1]))
+        self._outputs_known = False
         try:
-            self._worker = self._start()
+            self._process = ResumedProcess(self.name, self._setup(), self._timeout)
         except WorkerLostError as lost:
             raise self._error(f"its process {lost.reason} when it was instantiated") from lost
-        self._require(self._worker.started)
+        self._process.incidents = self.incidents
+        self._require(self._process.started)
 
     def enter_initialisation(
         self, *, start_time: float, stop_time: float, tolerance: float | None
@@ -155,13 +142,17 @@ class IsolatedParticipant(DescribedFmu):
     def set_inputs(self, values: Vector) -> Status:
         """Set the bound inputs, shape (n_inputs,), with the next call that has an answer."""
         self._inputs[:] = values
-        self._do_later(bytes([Operation.SET_INPUTS]) + self._inputs.tobytes())
+        self._outputs_known = False
+        operation = bytes([Operation.SET_INPUTS]) + self._inputs.tobytes()
+        self._live.do_later(operation)
+        self._live.journal.go_on(operation)
         return OK
 
     def get_outputs(self, out: Vector) -> Status:
         """Write the bound outputs to `out`, shape (n_outputs,)."""
         if not self._outputs_known:
-            report = self._ask(bytes([Operation.GET_OUTPUTS]), "reading its outputs")
+            operation = bytes([Operation.GET_OUTPUTS])
+            report = self._noted(self._live.ask(operation, "reading its outputs"))
             if report.status is not OK:
                 return report.status
             self._take_outputs(report)
@@ -170,70 +161,80 @@ class IsolatedParticipant(DescribedFmu):
 
     def get_observed(self, out: Vector) -> Status:
         """Write the observed values to `out`, shape (n_observed,)."""
-        report = self._ask(bytes([Operation.GET_OBSERVED]), "reading its observed values")
+        operation = bytes([Operation.GET_OBSERVED])
+        report = self._noted(self._live.ask(operation, "reading its observed values"))
         if report.status is OK:
             out[:] = np.frombuffer(report.payload)
         return report.status
 
+    def directional_derivatives(self, out: Matrix) -> Status:
+        """Write what each output gains with each input, shape (n_outputs, n_inputs)."""
+        operation = bytes([Operation.GET_DERIVATIVES])
+        report = self._noted(self._live.ask(operation, "reading its directional derivatives"))
+        if report.status is OK:
+            out[:] = np.frombuffer(report.payload).reshape(out.shape)
+        return report.status
+
     def step(self, time: float, step_size: float) -> Status:
         """Advance from `time` [s] by `step_size` [s]."""
-        self._when = (time, step_size)
-        if self._point is not None and self._point.steps >= 2 * snapshot_interval:
+        process = self._live
+        process.time, self._step_size = time, step_size
+        if process.journal.steps >= 2 * snapshot_interval:
             self.release(self._save_serialised())  # nobody else saves states
         operation = bytes([Operation.STEP]) + step_times.pack(time, step_size)
-        report = self._ask(operation, "the step", leads_on=True)
+        report = self._noted(process.ask(operation, "the step", steps=1))
         if report.status is OK:
             self._take_outputs(report)
         return report.status
 
     def save(self) -> object:
         """Return a new handle of the complete present state."""
-        if self._point is not None and self._point.steps >= snapshot_interval:
+        if self._live.journal.steps >= snapshot_interval:
             return self._save_serialised()
         self._numbers += 1
-        self._pending += bytes([Operation.SAVE]) + number.pack(self._numbers)
-        self._states[self._numbers] = self._point
+        self._live.do_later(bytes([Operation.SAVE]) + number.pack(self._numbers))
+        self._live.journal.keep(self._numbers)
         return self._numbers
 
     def restore(self, state: object) -> None:
         """Go back to `state`, with the next call that has an answer."""
         assert isinstance(state, int)
-        self._pending += bytes([Operation.RESTORE]) + number.pack(state)
-        self._point = self._states[state]
+        self._live.do_later(bytes([Operation.RESTORE]) + number.pack(state))
+        self._live.journal.go_back(state)
         self._outputs_known = False
 
     def release(self, state: object) -> None:
         """Give up `state`."""
         assert isinstance(state, int)
-        if state in self._states:
-            del self._states[state]
-            self._pending += bytes([Operation.RELEASE]) + number.pack(state)
+        if self._live.journal.drop(state):
+            self._live.do_later(bytes([Operation.RELEASE]) + number.pack(state))
 
     def serialise(self, state: object) -> bytes:
-        """Return `state` as bytes."""
+        """Return `state` as bytes, also after the process has ended."""
         assert isinstance(state, int)
-        report = self._ask(bytes([Operation.SERIALISE]) + number.pack(state), "serialising a state")
-        self._require(report)
-        return report.payload
+        return self._require(self._live.serialise(state))
 
     def deserialise(self, data: bytes) -> object:
         """Return a new handle of the state in `data`."""
         self._numbers += 1
-        self._require(self._ask(deserialising(self._numbers, data), "deserialising a state"))
-        self._states[self._numbers] = Point(before=None, data=data)
+        self._require(self._live.deserialise(self._numbers, data))
         return self._numbers
 
     def terminate(self) -> None:
         """End the simulation in order."""
-        self._require(self._ask(bytes([Operation.TERMINATE]), "terminating"))
+        self._require(self._live.ask(bytes([Operation.TERMINATE]), "terminating"))
 
     def free(self) -> None:
         """End the process; harmless when repeated."""
-        worker, self._worker = self._worker, None
-        if worker is not None:
-            worker.end()
+        if self._process is not None:
+            self._process.end()
 
-    def _start(self) -> WorkerProcess:
+    @property
+    def _live(self) -> ResumedProcess:
+        assert self._process is not None, "instantiate comes first"
+        return self._process
+
+    def _setup(self) -> bytes:
         inputs, outputs, observed = self._bound
         setup = {
             "path": str(self._path.absolute()),
@@ -244,97 +245,39 @@ class IsolatedParticipant(DescribedFmu):
             "observed": observed,
             "input_shape": self._wish,
         }
-        return WorkerProcess(json.dumps(setup).encode(), self._timeout)
+        return json.dumps(setup).encode()
 
     def _initialise(self, operation: bytes) -> None:
-        self._setup += self._pending + operation
-        self._require(self._ask(operation, "the initialisation"))
+        self._require(self._live.initialise(operation))
         self._outputs_known = False
 
-    def _do_later(self, operation: bytes) -> None:
-        self._pending += operation
-        self._outputs_known = False
-        if self._point is not None:
-            before = self._point
-            self._point = Point(before=before, operation=operation, steps=before.steps)
+    def _save_serialised(self) -> int:
+        self._numbers += 1
+        self._require(self._live.save_serialised(self._numbers))
+        return self._numbers
 
     def _take_outputs(self, report: Report) -> None:
         self._outputs[:] = np.frombuffer(report.payload)
         self._outputs_known = True
 
-    def _ask(self, operation: bytes, what: str, *, leads_on: bool = False) -> Report:
-        if self._worker is None:
-            return Report(Status(StatusKind.FATAL, f"{what} came when its process had ended"))
-        request, self._pending = self._pending + operation, b""
-        try:
-            report = self._worker.ask(request)
-        except WorkerLostError as lost:
-            report = self._resume(lost, request, what)
+    def _noted(self, report: Report) -> Report:
         if report.status is not OK:
             self._messages = report.messages
-            if report.status.kind is StatusKind.FATAL and not report.raises:
-                self.free()
-        elif leads_on and self._point is not None:
-            before = self._point
-            self._point = Point(before=before, operation=operation, steps=before.steps + 1)
-        self._confirmed = self._point
         return report
 
-    def _resume(self, lost: WorkerLostError, request: bytes, what: str) -> Report:
-        """Start the process anew and repeat what it takes to repeat `request`, once."""
-        self.free()
-        time, reason = self._when[0], f"its process {lost.reason} in {what}"
-        end = Report(Status(StatusKind.FATAL, reason))
-        confirmed = self._confirmed
-        if not lost.crashed or confirmed is None or self._crashed_at == time:
-            return end
-        self._crashed_at = time
-        where = "before the first step" if time is None else f"at t = {time:.9g} s"
-        try:
-            self._worker = worker = self._start()
-            if worker.started.status is OK:
-                way = self._setup
-                for state, point in self._states.items():
-                    if point is not None:
-                        way += way_to(point) + bytes([Operation.SAVE]) + number.pack(state)
-                report = worker.ask(way + way_to(confirmed) + request)
-                incident = (
-                    f"{self.name}: {reason} {where}; it was started anew and went on from there, "
-                    f"{confirmed.steps} steps after its last serialised state."
-                )
-                self.incidents.append(incident)
-                logger.warning("%s", incident)
-                return report
-        except WorkerLostError as again:
-            reason += f", and {again.reason} when that was repeated in a new one"
-        self.free()
-        return Report(Status(StatusKind.FATAL, reason))
-
-    def _save_serialised(self) -> object:
-        self._numbers += 1
-        state = self._numbers
-        operation = bytes([Operation.SAVE]) + number.pack(state)
-        operation += bytes([Operation.SERIALISE]) + number.pack(state)
-        report = self._ask(operation, "serialising a state")
-        self._require(report)
-        self._point = self._confirmed = self._states[state] = Point(
-            before=None, data=report.payload
-        )
-        return state
-
-    def _require(self, report: Report) -> None:
-        if report.status is not OK:
-            self._messages = report.messages
+    def _require(self, report: Report) -> bytes:
+        if self._noted(report).status is not OK:
             raise self._error(report.status.message)
+        return report.payload
 
     def _error(self, failure: str) -> ParticipantError:
-        time, step_size = self._when
+        time = None if self._process is None else self._process.time
         inputs = dict(zip(self._bound[0], self._inputs.tolist(), strict=True))
         return ParticipantError(
             participant=self.name,
             failure=failure,
             time=time,
-            step_size=step_size,
+            step_size=self._step_size,
             inputs=inputs if time is not None else None,
             messages=self._messages,
         )

@@ -42,6 +42,7 @@ class Worker:
         self._inputs = np.zeros(inputs)
         self._outputs = np.zeros(outputs)
         self._observed = np.zeros(observed)
+        self._derivatives = np.zeros((outputs, inputs))
         self._states: dict[int, object] = {}
         self._payload = b""
 
@@ -73,6 +74,10 @@ class Worker:
         if operation is Operation.GET_OBSERVED:
             status = participant.get_observed(self._observed)
             self._payload = self._observed.tobytes()
+            return status, place
+        if operation is Operation.GET_DERIVATIVES:
+            status = participant.directional_derivatives(self._derivatives)
+            self._payload = self._derivatives.tobytes()
             return status, place
         return OK, self._do_without_status(operation, data, place)
 

@@ -5,15 +5,18 @@ from time import perf_counter
 
 import numpy as np
 
+from .audit import Audit
 from .block import Block
 from .clock import Clock, Step
 from .coupling import Coupling
-from .decision import Accept, Candidate, Cause, Landed, Reject
-from .errors import RunError, StepTooSmallError
+from .decision import Accept, Candidate, Cause, Decision, Landed, Reject
+from .errors import ParticipantError, RunError, StepTooSmallError
 from .events import Switches
 from .exchange import Exchange
 from .explanation import explain
 from .interrupt import Interrupt
+from .last_attempt import LastAttempt
+from .ledger import Ledger
 from .observation import Observation
 from .observers import Observer
 from .outcome import StopReason
@@ -50,11 +53,15 @@ class Loop:
         Whether anything needs the prediction of exchanged values.
     observers : sequence of Observer
         Who sees the accepted points.
+    ledger : Ledger or None
+        Adds up the energy of bonds, if there are any.
     settings : MasterSettings
         Tolerance and limits.
 
     Attributes
     ----------
+    audit : Audit or None
+        Repeats accepted steps, if the settings want it.
     saved : list of Stage
         Those whose states are saved at every accepted point.
     log : StepLog
@@ -73,6 +80,7 @@ class Loop:
         rolls_back: bool,
         predicts: bool,
         observers: Sequence[Observer],
+        ledger: Ledger | None,
         settings: MasterSettings,
     ) -> None:
         self._exchange = exchange
@@ -89,12 +97,25 @@ class Loop:
         self.rolls_back = rolls_back
         self._predicts = predicts
         self._observation = Observation(exchange, late, observers)
+        self._ledger = ledger
         self._settings = settings
         self._history = History(exchange.lower, exchange.upper)
         self._predicted: Vector = self._history.last
         allowed = exchange.nominal * (settings.tolerance or 1.0)
         self._weights: Vector = exchange.continuous / allowed
+        # What has no continuous value to predict makes no error that could be seen.
+        self._unpredicted = nan if exchange.continuous.any() else 0.0
         self._error_forgiven = False
+        self._attempting: Step | None = None
+        self.audit: Audit | None = None
+        if settings.audit is not None:
+            self.audit = Audit(
+                exchange,
+                coupling,
+                self.saved,
+                every=settings.audit,
+                tolerance=settings.tolerance if controller.uses_error else None,
+            )
         self.log = StepLog()
 
     def run(self, interrupt: Interrupt) -> StopReason:
@@ -105,7 +126,7 @@ class Loop:
         RunError
             When it cannot go on; the message names participant, time and cause.
         """
-        clock, decide, settings = self._clock, self._controller.decide, self._settings
+        clock, settings = self._clock, self._settings
         deadline = perf_counter() + (settings.max_wall_time or float("inf"))
         budget = settings.max_attempts or float("inf")
         self._begin()
@@ -116,13 +137,7 @@ class Loop:
                 return StopReason.STEP_BUDGET
             if perf_counter() >= deadline:
                 return StopReason.TIME_BUDGET
-            candidate = self._attempt(step)
-            decision = decide(candidate)
-            if isinstance(decision, Accept):
-                failure = self._observation.read(step.start, step.size)
-                if failure is not None:
-                    candidate = candidate._replace(failure=failure)
-                    decision = decide(candidate)
+            candidate, decision = self._try(step)
             if isinstance(decision, Accept):
                 in_a_row = 0
                 wanted = self._accept(step, candidate, decision)
@@ -145,6 +160,8 @@ class Loop:
         self._history.restart(outputs[self._exchange.value_places])
         if self._has_events:
             self._switches.start(outputs[self._exchange.indicator_places].tolist())
+        if self._ledger is not None:
+            self._ledger.start()
         for stage in self.saved:
             stage.save()
         time, observation = self._clock.time, self._observation
@@ -152,6 +169,54 @@ class Loop:
         if failure is not None:
             raise RunError(failure.message)
         observation.notify(time)
+
+    def last_attempt(self) -> LastAttempt | None:
+        """Return what it takes to repeat an attempt that failed, where states can be serialised."""
+        step, stages = self._attempting, self._exchange.stages
+        able = [stage for stage in self.saved if stage.participant.can_serialise_state]
+        if step is None or len(able) < len(stages) or self._switches.searching:
+            return None
+        try:
+            states = {stage.participant.name: stage.serialise() for stage in stages}
+        except ParticipantError:
+            return None  # it died, or it claims too much: the whole run can be repeated
+        return LastAttempt(
+            time=step.start,
+            step_size=step.size,
+            landing=step.landing,
+            values=self._history.last,
+            slope=self._history.slope,
+            jacobians=self._coupling.known(step.size),
+            indicators=self._switches.values,
+            states=states,
+        )
+
+    def repeat(self, attempt: LastAttempt) -> str | None:
+        """Repeat an attempt, and say why it failed, or None if it did not.
+
+        Raises
+        ------
+        ParticipantError
+            When a participant died in it.
+        """
+        for stage in self._exchange.stages:
+            stage.resume(attempt.states[stage.participant.name])
+        self._history.resume(attempt.values, attempt.slope)
+        self._coupling.learn(attempt.jacobians)
+        self._switches.start(attempt.indicators)
+        candidate, decision = self._try(Step(attempt.time, attempt.step_size, attempt.landing))
+        return None if isinstance(decision, Accept) else self._explain(candidate, decision.cause)
+
+    def _try(self, step: Step) -> tuple[Candidate, Decision]:
+        self._attempting = step
+        candidate = self._attempt(step)
+        decision = self._controller.decide(candidate)
+        if isinstance(decision, Accept):
+            failure = self._observation.read(step.start, step.size)
+            if failure is not None:
+                candidate = candidate._replace(failure=failure)
+                decision = self._controller.decide(candidate)
+        return candidate, decision
 
     def _attempt(self, step: Step) -> Candidate:
         time, size, _ = step
@@ -164,23 +229,32 @@ class Loop:
             if self._has_events:
                 indicators = outputs[self._exchange.indicator_places].tolist()
                 finding = self._switches.examine(size, indicators)
-            if self._controller.uses_error and history.has_slope:
-                values = outputs[self._exchange.value_places]
-                error = largest((values - predicted) * self._weights)
+            if self._controller.uses_error:
+                error = self._unpredicted
+                if history.has_slope:
+                    values = outputs[self._exchange.value_places]
+                    miss = largest((values - predicted) * self._weights)
+                    error = miss * history.curvature_factor(size)
         return Candidate(time, size, failure, finding, error, iterations, residual)
 
     def _accept(self, step: Step, candidate: Candidate, decision: Accept) -> float:
         time, size, _ = step
+        self._attempting = None
         if self._last is not None:
             self._step_last(time, size)
         self.log.append(candidate, 0)
         self._error_forgiven = False
         self._coupling.commit()
+        saved = self.audit is not None and self.audit.accept(
+            time, size, self._history.last, self._predicted
+        )
         self._clock.advance(step)
         outputs = self._exchange.outputs
         values = outputs[self._exchange.value_places]
         wanted = decision.next_step
         finding = candidate.finding
+        if self._ledger is not None:
+            self._ledger.accept(size, switched=isinstance(finding, Landed))
         if isinstance(finding, Landed):
             self._history.restart(values)
             self._coupling.forget()
@@ -193,7 +267,7 @@ class Loop:
             indicators = outputs[self._exchange.indicator_places].tolist()
             landed = finding if isinstance(finding, Landed) else None
             self._switches.accept(self._clock.time, size, indicators, landed)
-        if not self._clock.finished:
+        if not (saved or self._clock.finished):
             for stage in self.saved:
                 stage.save()
         self._observation.notify(self._clock.time)
@@ -209,7 +283,7 @@ class Loop:
             )
 
     def _reject(self, step: Step, candidate: Candidate, decision: Reject) -> Step:
-        cause, wanted = decision
+        cause, wanted, exactly = decision
         self.log.append(candidate, cause)
         error = candidate.failure.participant_error if candidate.failure else None
         if error is not None and self._error_forgiven:
@@ -228,8 +302,14 @@ class Loop:
             return self._clock.plan_exactly(wanted)
         if wanted == step.size:
             return step
+        if cause is Cause.ERROR and not self._history.has_past:
+            exchange = self._exchange
+            self._history.look_ahead(exchange.outputs[exchange.value_places], step.size)
         if self._has_events:
             self._switches.abandon()
+        if exactly:
+            self._switches.count(step.start, "Steps ended early")
+            return self._clock.plan_exactly(wanted)
         following = self._clock.plan(wanted)
         if wanted < self._controller.min_step or following.size >= step.size:
             raise StepTooSmallError(

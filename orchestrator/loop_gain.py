@@ -9,8 +9,7 @@ from .block import Block
 from .decision import Failure
 from .errors import LoopGainError, list_names
 from .exchange import Exchange
-from .participant import Vector
-from .quasi_newton import Matrix
+from .participant import Matrix, Vector
 
 increment = 1e-5
 """Change of a torn value for its finite difference, over its nominal value."""

@@ -1,12 +1,13 @@
 """Implicit coupling: steps are repeated until inputs and outputs agree at the end of the step."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .block import Block
 from .coupling import Attempt, Coupling
 from .decision import Failure
-from .participant import InputShape, Vector
-from .quasi_newton import FixedPoint, Matrix
+from .participant import InputShape, Matrix, Vector
+from .quasi_newton import FixedPoint
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,6 +66,10 @@ def fixed_point(block: Block, tolerance: float, max_iterations: int) -> FixedPoi
     )
 
 
+most_step_sizes = 256
+"""Step sizes whose Jacobians are kept; a run that never repeats a size keeps no more."""
+
+
 class NewtonCoupling:
     """The iteration for one system, with the Jacobians kept from step to step.
 
@@ -77,7 +82,7 @@ class NewtonCoupling:
         Blocks, upstream first.
     """
 
-    warnings = ()
+    unreliable = ()
 
     def __init__(self, equations: list[tuple[Block, FixedPoint]]) -> None:
         self._equations = equations
@@ -95,7 +100,7 @@ class NewtonCoupling:
         """Try the step, starting from the predicted values."""
         del last  # the prediction is the better guess
         iterations, residual_norm = 1, 0.0
-        known = self._by_step_size.get(step_size, self._last)
+        known = self.known(step_size)
         self._step_size, self._learned = step_size, list(known)
         for place, (block, equations) in enumerate(self._equations):
             unknowns = predicted[block.unknowns]
@@ -108,7 +113,9 @@ class NewtonCoupling:
             def evaluate(values: Vector, block: Block = block) -> Failure | None:
                 return block.step(values, time, step_size)
 
-            solution = equations.solve(evaluate, block.computed, unknowns, known[place])
+            solution = equations.solve(
+                evaluate, block.computed, unknowns, known[place], block.guess
+            )
             self._learned[place] = solution.inverse
             iterations = max(iterations, solution.evaluations)
             residual_norm = max(residual_norm, solution.residual_norm)
@@ -118,7 +125,19 @@ class NewtonCoupling:
 
     def commit(self) -> None:
         """Keep the Jacobians of the last attempt."""
-        self._last = self._by_step_size[self._step_size] = self._learned
+        known = self._by_step_size
+        self._last = known[self._step_size] = self._learned
+        if len(known) > most_step_sizes:
+            del known[next(iter(known))]
+
+    def known(self, step_size: float) -> Sequence[Matrix | None]:
+        """Return the Jacobians of that size, else those used last."""
+        return self._by_step_size.get(step_size, self._last)
+
+    def learn(self, jacobians: Sequence[Matrix | None]) -> None:
+        """Take these as those used last."""
+        self._by_step_size.clear()
+        self._last = list(jacobians)
 
     def forget(self) -> None:
         """Find the Jacobians anew in the next attempt."""

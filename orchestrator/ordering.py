@@ -1,6 +1,9 @@
-"""The order in which participants step: coupled blocks, and the fewest torn values in each."""
+"""The order of things that depend on each other: coupled blocks, the fewest torn values in each.
 
-from collections.abc import Mapping, Sequence
+Participants that step, or single values of which each is its only output.
+"""
+
+from collections.abc import Container, Mapping, Sequence
 from graphlib import TopologicalSorter
 
 import numpy as np
@@ -94,9 +97,44 @@ def _best_order(block: Sequence[int], driven: Driven) -> list[int]:
 
 
 def _greedy_order(block: Sequence[int], driven: Driven) -> list[int]:
-    order: list[int] = []
-    while len(order) < len(block):
-        before = frozenset(order)
-        rest = [place for place in block if place not in before]
-        order.append(min(rest, key=lambda place: _newly_torn(driven, place, before)))
-    return order
+    """Tear the output that most depends on and that most depend on until no circle is left."""
+    outputs = [(source, name) for source in block for name in driven[source]]
+    after = {
+        (source, name): {
+            (target, other) for target in driven[source][name] for other in driven[target]
+        }
+        for source, name in outputs
+    }
+    before: dict[tuple[int, str], set[tuple[int, str]]] = {output: set() for output in outputs}
+    for output, following in after.items():
+        for other in following:
+            before[other].add(output)
+    untorn = set(outputs)
+    while after:
+        ends = [output for output in after if not (after[output] and before[output])]
+        if ends:
+            removed = ends
+        else:
+            worst = max(after, key=lambda output: len(after[output]) * len(before[output]))
+            untorn.discard(worst)
+            removed = [worst]
+        for output in removed:
+            for other in after.pop(output):
+                before[other].discard(output)
+            for other in before.pop(output):
+                if other in after:
+                    after[other].discard(output)
+    return _order_along(block, driven, untorn)
+
+
+def _order_along(
+    block: Sequence[int], driven: Driven, untorn: Container[tuple[int, str]]
+) -> list[int]:
+    """Order `block` so that every output in `untorn` comes before what it drives."""
+    waiting: dict[int, set[int]] = {place: set() for place in block}
+    for source, outputs in driven.items():
+        for name, targets in outputs.items():
+            if (source, name) in untorn:
+                for target in targets:
+                    waiting[target].add(source)
+    return list(TopologicalSorter(waiting).static_order())

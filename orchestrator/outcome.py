@@ -7,6 +7,9 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from .audit_report import AuditReport
+from .bond_report import BondReport
+
 
 class StopReason(Enum):
     """Why the run ended."""
@@ -14,6 +17,7 @@ class StopReason(Enum):
     FINISHED = "the stop time was reached"
     INTERRUPTED = "it was interrupted"
     STEP_BUDGET = "the largest number of attempts was reached"
+    FAILED = "it failed"
     TIME_BUDGET = "the wall time allowed was used up"
 
 
@@ -78,6 +82,14 @@ class Outcome:
         Seconds from instantiation to the end.
     warnings : tuple of str
         What makes the result doubtful, a sentence each.
+    failure : str
+        Why it failed, a sentence; empty unless it did.
+    unreliable : tuple of str
+        What makes it wrong, although the run went on, a sentence each.
+    audit : AuditReport or None
+        What repeating steps in halves found, if the settings wanted it.
+    bonds : tuple of BondReport
+        Energy that every bond made or lost.
     """
 
     end_time: float
@@ -87,6 +99,10 @@ class Outcome:
     switches: tuple[Switch, ...]
     wall_time: float
     warnings: tuple[str, ...] = ()
+    failure: str = ""
+    unreliable: tuple[str, ...] = ()
+    audit: AuditReport | None = None
+    bonds: tuple[BondReport, ...] = ()
 
     @property
     def finished(self) -> bool:

@@ -14,6 +14,7 @@ from .errors import WiringError
 type_names = ("Real", "Integer", "Boolean", "String", "Enumeration")
 
 Vector = NDArray[np.float64]
+Matrix = NDArray[np.float64]
 InputShape = Literal["held", "linear"]
 """How an input runs over a step: ``held`` at the value set, or ``linear`` from the last to it."""
 
@@ -71,6 +72,8 @@ class StatusKind(Enum):
     OK = "ok"
     DISCARD = "discard"
     """Nothing is wrong, but not with this step: a smaller one may do."""
+    EARLY = "early"
+    """The step ended before its end, and will do when it is repeated up to there."""
     ERROR = "error"
     """The result is unusable; going back to a saved state may help."""
     FATAL = "fatal"
@@ -87,7 +90,8 @@ class Status(NamedTuple):
     message : str
         Which call it was and what it answered.
     last_successful_time : float or None
-        Up to where a discarded step was computed [s], if that is known and beyond the start.
+        Up to where a discarded step was computed [s], if that is known and beyond the start; where
+        an early one ended.
     """
 
     kind: StatusKind
@@ -131,6 +135,18 @@ class Participant(Protocol):
         """Whether steps may differ in size."""
 
     @property
+    def dependencies(self) -> Mapping[str, frozenset[str] | None]:
+        """For every output the inputs that it depends on without delay; None: not known."""
+
+    @property
+    def initial_dependencies(self) -> Mapping[str, frozenset[str] | None]:
+        """For every output the inputs it depends on during the initialisation; None: not known."""
+
+    @property
+    def provides_directional_derivatives(self) -> bool:
+        """Whether it claims that `directional_derivatives` works."""
+
+    @property
     def input_shape(self) -> InputShape:
         """How its inputs run over a step; valid after `bind`."""
 
@@ -170,6 +186,12 @@ class Participant(Protocol):
 
     def get_observed(self, out: Vector) -> Status:
         """Write the observed values to `out`, shape (n_observed,); Booleans as 0 and 1."""
+
+    def directional_derivatives(self, out: Matrix) -> Status:
+        """Write what each bound output gains with each bound input, at the present point.
+
+        `out` has the shape (n_outputs, n_inputs) and the units of the participant.
+        """
 
     def step(self, time: float, step_size: float) -> Status:
         """Advance from `time` [s] by `step_size` [s]."""

@@ -5,21 +5,23 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .decision import Cause, Failure
-from .participant import Vector
+from .participant import Matrix, Vector
 
-Matrix = NDArray[np.float64]
 Evaluate = Callable[[Vector], Failure | None]
 """Computes G(z); the result is fetched separately."""
+Guess = Callable[[], Matrix | None]
+"""Returns an inverse Jacobian that nobody has tried, at the z evaluated last, if there is one."""
 
 slow_contraction = 0.5
 """A residual that shrinks by less than this asks for a new Jacobian."""
 
 good_contraction = 0.01
-"""A Jacobian that solves the equations by shrinking the residual to less than this stays as is."""
+"""A Jacobian that solves the equations by shrinking the residual to less than this stays as is.
 
+A guess that leaves more gives way to differences, which pay off in later steps.
+"""
 
 rounding = 2.0**-52
 
@@ -79,10 +81,12 @@ class FixedPoint:
         fetch: Callable[[], Vector],
         start: Vector,
         inverse: Matrix | None,
+        guess: Guess | None = None,
     ) -> Solution:
         """Iterate from `start` with the inverse Jacobian `inverse`, or without any knowledge.
 
-        The last evaluation is the one of the solution.
+        The last evaluation is the one of the solution. A guess costs one evaluation if it is wrong:
+        a correction with it that fails or makes the residual no smaller is undone and not counted.
 
         Parameters
         ----------
@@ -94,6 +98,8 @@ class FixedPoint:
             First guess; it is not changed.
         inverse : numpy.ndarray, shape (n, n), or None
             From an earlier solution; it is not changed.
+        guess : callable, optional
+            Asked once where `inverse` is None, before finite differences.
         """
         z = start
         failure = evaluate(z)
@@ -103,6 +109,10 @@ class FixedPoint:
         residual = (fetch() - z) / self.nominal
         norm = largest(residual)
         iterations, differenced = 0, False
+        if guess is not None and inverse is None and norm > self.tolerance:
+            z, residual, inverse, more = self._try(guess(), evaluate, fetch, z, residual)
+            norm = largest(residual)
+            evaluations += more
         while norm > self.tolerance:
             if inverse is None:
                 inverse, failure = self._difference(evaluate, fetch, z, residual)
@@ -113,8 +123,7 @@ class FixedPoint:
             if failure is not None or inverse is None:
                 return Solution(failure, None, evaluations, norm)
             z_before, before, norm_before = z, residual, norm
-            z = z - self.nominal * (inverse @ residual)
-            z = np.minimum(np.maximum(z, self.lower), self.upper)
+            z = self._corrected(z, inverse, residual)
             failure = self._runs_away(z) or evaluate(z)
             iterations += 1
             evaluations += 1
@@ -128,6 +137,38 @@ class FixedPoint:
                 inverse = broyden(inverse, (z - z_before) / self.nominal, residual - before)
             differenced = False
         return Solution(None, inverse, evaluations, norm)
+
+    def _corrected(self, z: Vector, inverse: Matrix, residual: Vector) -> Vector:
+        z = z - self.nominal * (inverse @ residual)
+        return np.minimum(np.maximum(z, self.lower), self.upper)
+
+    def _try(
+        self,
+        inverse: Matrix | None,
+        evaluate: Evaluate,
+        fetch: Callable[[], Vector],
+        z: Vector,
+        residual: Vector,
+    ) -> tuple[Vector, Vector, Matrix | None, int]:
+        """Return z, residual and inverse after a correction, or as before a bad one; evaluations.
+
+        That z became worse, or such that a participant refuses it, says only that the guess was
+        wrong.
+        """
+        if inverse is None:
+            return z, residual, None, 0
+        with np.errstate(over="ignore", invalid="ignore"):
+            there = self._corrected(z, inverse, residual)
+            if self._runs_away(there) is not None:
+                return z, residual, None, 0
+        if evaluate(there) is not None:
+            return z, residual, None, 1
+        left = (fetch() - there) / self.nominal
+        norm, norm_before = largest(left), largest(residual)
+        if not norm < norm_before:
+            return z, residual, None, 1
+        good = norm <= good_contraction * norm_before
+        return there, left, inverse if good else None, 1
 
     def _runs_away(self, z: Vector) -> Failure | None:
         scaled = z / self.nominal
@@ -156,15 +197,14 @@ class FixedPoint:
             if failure is not None:
                 return None, failure
             jacobian[:, column] = ((fetch() - nearby) / self.nominal - residual) / increment
-        try:
-            jacobian[...] = np.linalg.inv(jacobian)
-        except np.linalg.LinAlgError:
-            return None, Failure(
-                Cause.CONVERGENCE,
-                f"the loop through {' and '.join(self.names)} has no single solution, "
-                "because its Jacobian is singular",
-            )
-        return jacobian, None
+        inverse = invert(jacobian)
+        if inverse is not None:
+            return inverse, None
+        return None, Failure(
+            Cause.CONVERGENCE,
+            f"the loop through {' and '.join(self.names)} has no single solution, because its "
+            "Jacobian is singular",
+        )
 
     def _not_converged(self, residual: Vector, norm: float) -> Failure:
         worst = int(np.argmax(np.abs(residual)))
@@ -188,6 +228,16 @@ def broyden(inverse: Matrix, moved: Vector, change: Vector) -> Matrix:
         return inverse
     updated: Matrix = inverse + ((moved - projected) / scale)[:, None] * row
     return updated
+
+
+def invert(matrix: Matrix) -> Matrix | None:
+    """Return the inverse, or None where there is none that is finite."""
+    inverse = np.empty_like(matrix)
+    try:
+        inverse[...] = np.linalg.inv(matrix)
+    except np.linalg.LinAlgError:
+        return None
+    return inverse if np.isfinite(inverse).all() else None
 
 
 def largest(vector: Vector) -> float:

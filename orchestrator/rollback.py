@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from .decision import Failure
 from .errors import RollbackError
 from .participant import Participant, StatusKind, Vector
 from .stage import Stage
@@ -55,7 +56,7 @@ def place_without_rollback(system: System, *, delay_allowed: bool) -> int | None
     return without[0]
 
 
-def check_rollback(stages: Sequence[Stage], time: float, step_size: float) -> None:
+def check_rollback(stages: Sequence[Stage], time: float, step_size: float) -> list[str]:
     """Let every stage step, wander off, go back and step again, and compare the two steps.
 
     Parameters
@@ -65,22 +66,35 @@ def check_rollback(stages: Sequence[Stage], time: float, step_size: float) -> No
     time, step_size : float
         Step to make [s].
 
+    Returns
+    -------
+    list of str
+        A sentence about each stage whose steps failed, so that nothing is known about it.
+
     Raises
     ------
     RollbackError
         When the outputs of the two steps are not the same bit for bit.
     """
+    warnings = []
     for stage in stages:
         outputs = stage.outputs.copy()
         stage.save()
         try:
-            _check(stage, time, step_size)
+            obstacle = _check(stage, time, step_size)
         finally:
             stage.release()
             stage.outputs[:] = outputs
+        if obstacle is not None:
+            warnings.append(
+                f"Whether {stage.participant.name} restores saved states could not be checked: "
+                f"{obstacle.message}"
+            )
+            logger.warning("%s", warnings[-1])
+    return warnings
 
 
-def _check(stage: Stage, time: float, step_size: float) -> None:
+def _check(stage: Stage, time: float, step_size: float) -> Failure | None:
     participant = stage.participant
     failure = stage.step(time, step_size)
     for _ in range(halvings):
@@ -88,9 +102,8 @@ def _check(stage: Stage, time: float, step_size: float) -> None:
             step_size *= 0.5
             failure = stage.step(time, step_size)
     if failure is not None:
-        logger.warning("the rollback of %s was not checked: %s", participant.name, failure.message)
         stage.go_back()
-        return
+        return failure
     stage.read_observed(time, step_size)
     first = np.concatenate([stage.outputs, stage.observed])
     for status in (
@@ -119,6 +132,7 @@ def _check(stage: Stage, time: float, step_size: float) -> None:
             f"{first[place]!r}, and {second[place]!r} when it was repeated."
         )
     stage.go_back()
+    return None
 
 
 def _disturbed(participant: Participant, names: Sequence[str], inputs: Vector) -> Vector:

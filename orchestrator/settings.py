@@ -11,6 +11,7 @@ from .newton import Newton
 from .step_control import ErrorControl, FixedStep, StepController
 
 algorithms = ("newton", "gauss_seidel", "jacobi")
+counts = ("max_iterations", "max_switches", "max_rejections", "max_attempts", "audit")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -21,7 +22,8 @@ class MasterSettings:
     ----------
     tolerance : float or None
         Allowed difference of prediction and result of every exchanged value in one step, relative
-        to its nominal value. None is for fixed steps only, which control no error.
+        to its nominal value, the prediction being a straight line from equal steps. None is for
+        fixed steps only, which control no error.
     algorithm : {'newton', 'gauss_seidel', 'jacobi'}
         How the exchanged values are found.
     extrapolate : bool
@@ -29,8 +31,8 @@ class MasterSettings:
     fixed_step : float or None
         Step size [s] without error control; None for error control.
     initial_step, min_step, max_step : float or None
-        First, smallest and largest step [s]. By default the largest is a tenth of the run, the
-        first a hundredth of the largest and the smallest 1e-6 of the largest. With fixed steps
+        First trial, smallest and largest step [s]. By default the largest is a tenth of the run,
+        the first a hundredth of the largest and the smallest 1e-6 of the largest. With fixed steps
         only `min_step` is used: if given, failing steps are divided down to it.
     coupling_tolerance : float
         Largest residual of the iteration relative to the nominal value.
@@ -43,13 +45,18 @@ class MasterSettings:
     max_switches : int
         Switches allowed within `switch_window`.
     switch_window : float or None
-        Time span for `max_switches` [s]; 1e-6 of the run by default.
+        Time span for `max_switches` [s]; 1e-6 of the run by default, which lets fast switching
+        pass. Impacts that accumulate want less patience, such as 20 switches in a tenth of the
+        time between the first two.
     max_rejections : int
         Rejected attempts in a row that end the run.
     max_attempts : int or None
         Attempts after which the run ends early.
     max_wall_time : float or None
         Seconds of wall time after which the run ends early.
+    audit : int or None
+        Every so many accepted steps are repeated in two halves to measure their error, which
+        leaves the run as it is.
     check_rollback : bool
         Whether participants must prove at the start that they can go back. Without it, an explicit
         run with fixed steps and without `min_step` does not measure the gain of its loops either.
@@ -71,6 +78,7 @@ class MasterSettings:
     max_rejections: int = 100
     max_attempts: int | None = None
     max_wall_time: float | None = None
+    audit: int | None = None
     check_rollback: bool = True
 
     def __post_init__(self) -> None:
@@ -93,7 +101,7 @@ class MasterSettings:
             value = getattr(self, name)
             if value is not None and not 0.0 < value < inf:
                 raise SettingsError(f"{name} = {value} must be positive and finite.")
-        for name in ("max_iterations", "max_switches", "max_rejections", "max_attempts"):
+        for name in counts:
             value = getattr(self, name)
             if value is not None and value < 1:
                 raise SettingsError(f"{name} = {value} must be at least 1.")

@@ -8,15 +8,14 @@ from .errors import SettingsError
 
 order = 2
 """The difference of a straight-line prediction and the result is O(h^order)."""
-safety = 0.9
+safety = 0.8
 growth_limit = 2.0
 shrink_limit = 0.2
-proportional, integral = 0.2 / order, 0.85 / order
-"""Exponents of the PI controller, see Hairer & Wanner, Solving ODEs II, section IV.2."""
 smallest_error = 1e-2
 """Errors below this are all the same to the controller."""
 grid_ratio = 2.0**0.25
 restart_factor = 0.1
+"""First trial after a switch over the step before it."""
 patience = {Cause.ERROR: 1, Cause.CONVERGENCE: 5, Cause.DISCARD: 5, Cause.INVALID: 5}
 """Accepted steps before the step may grow again after a rejection."""
 
@@ -81,7 +80,8 @@ class FixedStep:
     def decide(self, candidate: Candidate) -> Decision:
         """Accept whatever has a result and ends on a switch if it meets one."""
         if candidate.failure is not None:
-            return Reject(candidate.failure.cause, smaller_step(candidate, self.min_step))
+            early = early_end(candidate) if self.may_reject else None
+            return early or Reject(candidate.failure.cause, smaller_step(candidate, self.min_step))
         if isinstance(candidate.finding, Refine):
             return Reject(Cause.EVENT, candidate.finding.next_step)
         return Accept(self.first_step)
@@ -92,10 +92,19 @@ class FixedStep:
 
 
 class ErrorControl:
-    """Keeps the difference of prediction and result near the tolerance with a PI controller.
+    """Keeps the difference of prediction and result below the tolerance.
 
-    Step sizes are taken from a geometric grid below the largest one, since participants may keep
-    operators per step size.
+    The next step is the one at which the curvature just found meets the tolerance, rounded down to
+    a geometric grid below the largest step, since participants may keep operators per step size.
+    The size follows from the present course alone and not from the sizes before it: a conservative
+    system that goes one way and back is stepped alike both ways, so that its errors cancel, which
+    a controller with a memory undoes (Hairer, Lubich & Wanner, Geometric Numerical Integration,
+    section VIII.3).
+
+    A first step, at the start and after a switch, has no past to predict it. Its first trial is
+    only looked at: it is repeated with half its size, the trial giving the slope, and judged like
+    any other step; see Hairer, Norsett & Wanner, Solving ODEs I, section II.4, for starting steps
+    from a trial.
 
     Parameters
     ----------
@@ -122,13 +131,15 @@ class ErrorControl:
         self._sizes = sizes[::-1]
         self.first_step = self._round_down(initial_step)
         self._step = self.first_step
-        self._error_before = 1.0
         self._patience = 0
 
     def decide(self, candidate: Candidate) -> Decision:
         """Reject what failed, missed a switch or differs too much from the prediction."""
         failure, finding, error = candidate.failure, candidate.finding, candidate.error_norm
         if failure is not None:
+            early = early_end(candidate)
+            if early is not None:
+                return early
             self._patience = patience[failure.cause]
             self._step = self._round_down(smaller_step(candidate, self.min_step))
             return Reject(failure.cause, self._step)
@@ -138,22 +149,20 @@ class ErrorControl:
             self._patience = max(self._patience, patience[Cause.ERROR])
             factor = max(shrink_limit, safety * error ** (-1.0 / order))
             return Reject(Cause.ERROR, self._below(candidate.step_size, factor))
-        return Accept(self._next(candidate.step_size, error))
+        unknown = error != error  # noqa: PLR0124 - NaN: nothing was predicted
+        if unknown and candidate.step_size >= 2.0 * self.min_step:
+            return Reject(Cause.ERROR, self._round_down(0.5 * candidate.step_size))
+        return Accept(self._step if unknown else self._next(candidate.step_size, error))
 
     def after_switch(self) -> float:
         """Return a tenth of the step that was going on before the switch."""
-        self._error_before = 1.0
         self._step = self._round_down(max(self.min_step, restart_factor * self._step))
         return self._step
 
     def _next(self, size: float, error: float) -> float:
         patient = self._patience > 0
         self._patience = max(0, self._patience - 1)
-        if error != error:  # noqa: PLR0124 - NaN: nothing was predicted
-            return self._step
-        error = max(error, smallest_error)
-        factor = safety * error**-integral * self._error_before**proportional
-        self._error_before = error
+        factor = safety * max(error, smallest_error) ** (-1.0 / order)
         limit = 1.0 if patient else growth_limit
         factor = min(limit, max(shrink_limit, factor))
         # A step cut short by the stop time or a switch says nothing against the size before it.
@@ -171,6 +180,15 @@ class ErrorControl:
         # The margin keeps a grid size that was multiplied by a factor of one where it is.
         place = bisect_right(self._sizes, size * (1.0 + 1e-12))
         return self._sizes[place - 1] if place else size
+
+
+def early_end(candidate: Candidate) -> Reject | None:
+    """Return the order to end the step where a participant ended it early, if one did."""
+    failure = candidate.failure
+    if failure is None or not failure.ends_early or failure.last_successful_time is None:
+        return None
+    reached = failure.last_successful_time - candidate.time
+    return Reject(failure.cause, reached, exactly=True)
 
 
 def smaller_step(candidate: Candidate, min_step: float) -> float:

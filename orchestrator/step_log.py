@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from .decision import Candidate, Cause
 from .outcome import Statistics
+from .row_store import RowStore
 
 row_type = np.dtype(
     [
@@ -18,11 +19,11 @@ row_type = np.dtype(
 )
 """Fields of a row; `cause` is 0 for accepted, else a `Cause`."""
 
-chunk_size = 4096
+chunk_size = 1024
 
 
 class StepLog:
-    """Collects rows cheaply and gives them as one structured array.
+    """Collects rows cheaply, in bounded memory, and gives them as one structured array.
 
     Attributes
     ----------
@@ -38,7 +39,7 @@ class StepLog:
         self._counts = [0] * (len(Cause) + 1)
         self._iterations = 0
         self._rows: list[tuple[float, float, int, int, float, float]] = []
-        self._chunks: list[NDArray[np.void]] = []
+        self._store = RowStore(row_type)
 
     def append(self, candidate: Candidate, cause: int) -> None:
         """Add an attempt that was rejected for `cause`, or accepted if that is 0."""
@@ -49,8 +50,7 @@ class StepLog:
         self._iterations += iterations
         self._rows.append((time, size, cause, iterations, error, residual))
         if len(self._rows) == chunk_size:
-            self._chunks.append(np.array(self._rows, dtype=row_type))
-            self._rows.clear()
+            self._keep()
 
     @property
     def accepted(self) -> int:
@@ -59,7 +59,8 @@ class StepLog:
 
     def as_array(self) -> NDArray[np.void]:
         """Return all rows, shape (n_attempts,), of type `row_type`."""
-        return np.concatenate([*self._chunks, np.array(self._rows, dtype=row_type)])
+        self._keep()
+        return self._store.as_array()
 
     def statistics(self, switches: int) -> Statistics:
         """Return the counts of a run with that many switches."""
@@ -69,3 +70,8 @@ class StepLog:
             iterations=self._iterations,
             switches=switches,
         )
+
+    def _keep(self) -> None:
+        if self._rows:
+            rows, self._rows = np.array(self._rows, dtype=row_type), []
+            self._store.extend(rows)

@@ -55,6 +55,7 @@ class WorkerProcess:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             env={**dict.fromkeys(thread_limits, "1"), **os.environ, "PYTHONPATH": paths},
+            process_group=0,  # Ctrl-C reaches all of the terminal's group, at start-up too
         )
         assert self._process.stdin is not None
         assert self._process.stdout is not None

@@ -1,4 +1,4 @@
-"""The command line: `railcosim run`, `cosim`, `build` and `check`."""
+"""The command line: `railcosim run`, `cosim`, `replay`, `build` and `check`."""
 
 import json
 import signal
@@ -7,17 +7,20 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
 from enum import StrEnum
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 import xarray as xr
 from rich.console import Console
+from threadpoolctl import threadpool_limits
 
 import orchestrator
 from build_fmus import default_directory
 from orchestrator import check_fmu
 from orchestrator.isolated import DEFAULT_TIMEOUT
+from orchestrator.replay import open_replay, repeat
 
 from . import __version__
 from .cosim import run_system
@@ -26,10 +29,18 @@ from .cosim_result import cosim_table, summarise_cosim
 from .errors import InputError, RunError
 from .figures import describe, draw_passage
 from .notes import notes
-from .output import DATA_SUFFIXES, FIGURE_SUFFIXES, check_writable, write_dataset, write_figure
+from .output import (
+    DATA_SUFFIXES,
+    FIGURE_SUFFIXES,
+    REPLAY_SUFFIX,
+    check_writable,
+    write_dataset,
+    write_figure,
+)
 from .passage import build_for, run_passage
 from .passage_package import ensure_package
 from .progress import progress_bar
+from .repetition_report import repetition_numbers, repetition_table
 from .scenario import Scenario
 from .scenario_file import read_scenario
 from .summary import summarise
@@ -47,6 +58,19 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
+
+ISOLATE = Annotated[bool, typer.Option("--isolate", help="Run each FMU in a process of its own.")]
+TIMEOUT = Annotated[
+    float | None,
+    typer.Option(metavar="S", help="Longest answer of an FMU [s]; with --isolate, 60 without."),
+]
+
+REPLAY = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE.replay", help="Written if the run fails; without, beside the output."
+    ),
+]
 
 PACKAGE_NAME = "Passage.ssp"
 """File of the paper's case as a system of FMUs."""
@@ -110,16 +134,12 @@ def run(
         typer.Option("--set", metavar="KEY=VALUE", help="Replace a key, as in flat.depth=1e-3."),
     ] = None,
     fmus: Annotated[FmuKind, typer.Option(help="Which build of the FMUs runs.")] = FmuKind.PYTHON,
-    isolate: Annotated[
-        bool, typer.Option("--isolate", help="Run each FMU in a process of its own.")
-    ] = False,
-    timeout: Annotated[
-        float | None,
-        typer.Option(metavar="S", help="Longest answer of an FMU [s]; with --isolate, 60 without."),
-    ] = None,
+    isolate: ISOLATE = False,
+    timeout: TIMEOUT = None,
     output: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Result: .nc, .csv or .parquet.")
     ] = None,
+    replay: REPLAY = None,
     plot: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Figure: .png, .pdf or .svg.")
     ] = None,
@@ -138,7 +158,8 @@ def run(
         limit = _time_limit(timeout, isolate=isolate)
         for note in notes(case):
             _say(f"note: {note}")
-        passage = _followed_run(case, fmus, limit, quiet=quiet)
+        with _keeping(output):
+            passage = _followed_run(case, fmus, limit, _replay_file(replay, output), quiet=quiet)
         if output is not None:
             write_dataset(passage, output)
         if plot is not None:
@@ -148,7 +169,7 @@ def run(
             typer.echo(json.dumps(summary.as_dict(), indent=2, allow_nan=False))
         elif not quiet:
             Console().print(summary_table(summary, describe(case)))
-        _check_complete(passage)
+        _check_result(passage)
 
 
 @app.command()
@@ -170,6 +191,17 @@ def cosim(
     ] = None,
     min_step: Annotated[float | None, typer.Option(metavar="S", help="Smallest step.")] = None,
     max_step: Annotated[float | None, typer.Option(metavar="S", help="Largest step.")] = None,
+    bond: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FORCE,MOTION",
+            help="Outputs that carry power: add up the energy made or lost; may be repeated.",
+        ),
+    ] = None,
+    audit: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="Measure the error of every N-th step by two half steps."),
+    ] = None,
     event: Annotated[
         list[str] | None,
         typer.Option(
@@ -177,9 +209,12 @@ def cosim(
             help="Signed output whose changes of sign are landed on; may be repeated.",
         ),
     ] = None,
+    isolate: ISOLATE = False,
+    timeout: TIMEOUT = None,
     output: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Result: .nc, .csv or .parquet.")
     ] = None,
+    replay: REPLAY = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the numbers as one JSON object.")
     ] = False,
@@ -194,18 +229,28 @@ def cosim(
             step=step,
             min_step=min_step,
             max_step=max_step,
+            audit=audit,
+            bonds=tuple(bond or ()),
             events=tuple(event or ()),
         )
         if output is not None:
             check_writable(output, option="--output", suffixes=DATA_SUFFIXES)
-        result = _followed_cosim(system, options, quiet=quiet)
+        with _keeping(output):
+            result = _followed_cosim(
+                system,
+                options,
+                _time_limit(timeout, isolate=isolate),
+                _replay_file(replay, output),
+                with_histories=output is not None,
+                quiet=quiet,
+            )
         if output is not None:
             write_dataset(result, output)
         if as_json:
             typer.echo(json.dumps(summarise_cosim(result), indent=2, allow_nan=False))
         elif not quiet:
             Console().print(cosim_table(result))
-        _check_complete(result)
+        _check_result(result)
 
 
 @app.command()
@@ -225,8 +270,35 @@ def build(
 
 
 @app.command()
+def replay(
+    file: Annotated[Path, typer.Argument(metavar="FILE.replay", help="From a run that failed.")],
+    *,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print what happened as one JSON object.")
+    ] = False,
+) -> None:
+    """Repeat how a run failed; exit code 0 if it fails in the same way."""
+    with _exit_codes(), threadpool_limits(limits=1, user_api="blas"):
+        try:
+            with open_replay(file) as case:
+                repetition = repeat(case)
+        except orchestrator.InputError as error:
+            raise InputError(str(error)) from error
+        if as_json:
+            numbers = repetition_numbers(case, repetition)
+            typer.echo(json.dumps(numbers, indent=2, allow_nan=False))
+        else:
+            Console().print(repetition_table(case, repetition))
+            typer.echo(repetition.message or "It did not fail.")
+        if not repetition.reproduced:
+            raise RunError(f"it did not end in the same way; the run ended so: {case.error}")
+
+
+@app.command()
 def check(
-    fmu: Annotated[Path, typer.Argument(metavar="FMU", help="An FMI 2.0 co-simulation FMU.")],
+    fmu: Annotated[
+        Path, typer.Argument(metavar="FMU", help="An FMI 2.0 or 3.0 co-simulation FMU.")
+    ],
     *,
     step: Annotated[float, typer.Option(metavar="S", help="Step to try it with [s].")] = 1e-3,
     timeout: Annotated[
@@ -263,30 +335,71 @@ def _time_limit(timeout: float | None, *, isolate: bool) -> float | None:
 
 
 def _followed_run(
-    case: Scenario, fmus: FmuKind, timeout: float | None, *, quiet: bool
+    case: Scenario, fmus: FmuKind, timeout: float | None, replay: Path | None, *, quiet: bool
 ) -> xr.Dataset:
     """Run with a progress bar on stderr, or without a word."""
+    run = partial(run_passage, case, fmus=fmus.value, timeout=timeout, replay=replay)
     if quiet:
-        return run_passage(case, fmus=fmus.value, timeout=timeout)
+        return run()
     with progress_bar(Console(stderr=True)) as report:
-        return run_passage(case, fmus=fmus.value, timeout=timeout, notify=_say, report=report)
+        return run(notify=_say, report=report)
 
 
-def _followed_cosim(system: Path, options: CosimOptions, *, quiet: bool) -> xr.Dataset:
+def _followed_cosim(
+    system: Path,
+    options: CosimOptions,
+    timeout: float | None,
+    replay: Path | None,
+    *,
+    with_histories: bool,
+    quiet: bool,
+) -> xr.Dataset:
     """Do the same for a system."""
+    run = partial(
+        run_system,
+        system,
+        options,
+        timeout=timeout,
+        replay=replay,
+        with_histories=with_histories,
+    )
     if quiet:
-        return run_system(system, options)
+        return run()
     with progress_bar(Console(stderr=True), system.stem) as report:
-        return run_system(system, options, notify=_say, report=report)
+        return run(notify=_say, report=report)
 
 
-def _check_complete(result: xr.Dataset) -> None:
-    """Say why a run ended early, if it did."""
+def _replay_file(replay: Path | None, output: Path | None) -> Path | None:
+    """Return where to write a replay file: as told, else beside the output."""
+    if replay is None:
+        return None if output is None else output.with_suffix(REPLAY_SUFFIX)
+    check_writable(replay, option="--replay", suffixes=(REPLAY_SUFFIX,))
+    return replay
+
+
+@contextmanager
+def _keeping(output: Path | None) -> Iterator[None]:
+    """Write what there is of a result when the run fails."""
+    try:
+        yield
+    except RunError as error:
+        if output is not None and error.result is not None:
+            try:
+                write_dataset(error.result, output)
+            except RunError as another:
+                raise RunError(f"{error}; {another}") from error
+        raise
+
+
+def _check_result(result: xr.Dataset) -> None:
+    """Say why a run ended early or is wrong, if it did or is."""
     if not result.attrs["complete"]:
         raise RunError(
             f"the run ended at t = {result.attrs['simulated_time']:.6g} s, because "
             f"{result.attrs['stop_reason']}; the result reaches up to there"
         )
+    if result.attrs["unreliable"]:
+        raise RunError(f"the result is wrong: {result.attrs['unreliable'].splitlines()[0]}")
 
 
 @contextmanager

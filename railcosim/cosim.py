@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 from threadpoolctl import threadpool_limits
 
 import orchestrator
-from orchestrator import Master, Recorder
+from orchestrator import LastPoint, Master, Recorder, bond_by_unit
+from orchestrator.replay import ReplayCase
 from orchestrator.ssp import open_system
 
 from .cosim_result import label_result
-from .errors import InputError, RunError
+from .errors import InputError
+from .evidence import keeping_evidence
 from .run_record import doubts
 from .watched_control import WatchedControl
 
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
+    from orchestrator import Outcome
     from orchestrator.ssp import AssembledSystem
 
     from .cosim_options import CosimOptions
@@ -31,6 +34,9 @@ def run_system(
     path: Path,
     options: CosimOptions,
     *,
+    timeout: float | None = None,
+    replay: Path | None = None,
+    with_histories: bool = True,
     notify: Callable[[str], None] | None = None,
     report: Callable[[Progress], None] | None = None,
 ) -> xr.Dataset:
@@ -42,6 +48,12 @@ def run_system(
         An .ssp or .ssd file.
     options : CosimOptions
         What counts more than what the file says.
+    timeout : float, optional
+        Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
+    replay : Path, optional
+        Replay file to write if the run fails.
+    with_histories : bool
+        Whether outputs are kept over time, or their last values only.
     notify : callable, optional
         Told in a few words of parameter values that no variable has.
     report : callable, optional
@@ -57,24 +69,29 @@ def run_system(
     InputError
         For a file, an FMU or an option that cannot be used.
     RunError
-        Where the co-simulation cannot go on.
+        Where the co-simulation cannot go on; with the result so far.
     """
     try:
         # The FMUs share the process and its BLAS: their matrices are too small for more threads.
-        with open_system(path) as opened, threadpool_limits(limits=1, user_api="blas"):
+        with (
+            open_system(path, timeout=timeout) as opened,
+            threadpool_limits(limits=1, user_api="blas"),
+        ):
             for name in opened.unused:
                 if notify is not None:
                     notify(f"no variable takes the parameter value {name}: it is not used")
-            return _run(opened, options, notify, report)
+            recorder = Recorder() if with_histories else LastPoint()
+            return _run(opened, options, recorder, replay=replay, notify=notify, report=report)
     except orchestrator.InputError as error:
         raise InputError(str(error)) from error
-    except orchestrator.RunError as error:
-        raise RunError(str(error)) from error
 
 
 def _run(
     opened: AssembledSystem,
     options: CosimOptions,
+    recorder: Recorder,
+    *,
+    replay: Path | None,
     notify: Callable[[str], None] | None,
     report: Callable[[Progress], None] | None,
 ) -> xr.Dataset:
@@ -84,16 +101,33 @@ def _run(
     control = settings.make_controller(stop - start)
     if report is not None:
         control = WatchedControl(control, stop_time=stop, report=report)
-    recorder = Recorder()
+    events = options.events or choices.events
+    name = opened.description.name
     master = Master(
         opened.system,
         settings,
         controller=control,
-        events=options.events or choices.events,
+        events=events,
         observers=[recorder],
+        bonds=[bond_by_unit(opened.system, *pair) for pair in options.pairs(choices)],
     )
-    outcome = master.run(start, stop)
+    case = ReplayCase(
+        name=name,
+        sources=opened.sources,
+        connections=opened.system.connections,
+        settings=settings,
+        events=events,
+        observed=tuple(recorder.choose(opened.system.variables())),
+        start_time=start,
+        stop_time=stop,
+    )
+
+    def label(outcome: Outcome) -> xr.Dataset | None:
+        return label_result(name, recorder, outcome, settings) if recorder.time.size else None
+
+    with keeping_evidence(case, replay, label):
+        outcome = master.run(start, stop)
     if notify is not None:
         for doubt in doubts(outcome, opened.system):
             notify(doubt)
-    return label_result(opened.description.name, recorder, outcome, settings)
+    return label_result(name, recorder, outcome, settings)

@@ -33,8 +33,12 @@ class CosimOptions:
         Fixed step without error control [s].
     min_step, max_step : float or None
         Smallest and largest step [s].
+    audit : int or None
+        Every so many accepted steps are repeated in two halves.
     events : tuple of str
         Event indicators in place of the file's.
+    bonds : tuple of str
+        ``force,motion`` in place of the file's.
     """
 
     stop_time: float | None = None
@@ -43,7 +47,9 @@ class CosimOptions:
     step: float | None = None
     min_step: float | None = None
     max_step: float | None = None
+    audit: int | None = None
     events: tuple[str, ...] = ()
+    bonds: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.step is not None and self.max_step is not None:
@@ -79,11 +85,30 @@ class CosimOptions:
             "fixed_step": self.step,
             "min_step": self.min_step,
             "max_step": self.max_step,
+            "audit": self.audit,
         }
         chosen |= {name: value for name, value in given.items() if value is not None}
         if "fixed_step" not in chosen:
             chosen.setdefault("tolerance", DEFAULT_TOLERANCE)
         return MasterSettings(**{"tolerance": None, **chosen})
+
+    def pairs(self, master: MasterChoices) -> tuple[tuple[str, str], ...]:
+        """Return forces and motions of the bonds.
+
+        Raises
+        ------
+        InputError
+            For one that is not of the form ``force,motion``.
+        """
+        pairs = []
+        for text in self.bonds:
+            force, comma, motion = text.partition(",")
+            if not (force and comma and motion):
+                raise InputError(
+                    f"--bond {text} must name two outputs, as in spring.force,ball.velocity"
+                )
+            pairs.append((force.strip(), motion.strip()))
+        return tuple(pairs) or master.bonds
 
     def span(self, description: SystemDescription) -> tuple[float, float]:
         """Return start and end of the run [s].

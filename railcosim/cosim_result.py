@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 DTYPES = {"Real": np.float64, "Integer": np.int64, "Enumeration": np.int64, "Boolean": np.bool_}
 """How values of a type are kept."""
 
+EXTRAS = ("audit", "bonds")
+"""What the master reports only where it was asked to."""
+
 SHOWN = 20
 """Final values that the table for the terminal shows."""
 
@@ -72,12 +75,17 @@ def summarise_cosim(result: xr.Dataset) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``end_time`` and ``wall_time`` [s], ``steps`` and the ``final`` value of every output.
+        ``end_time`` and ``wall_time`` [s], ``steps``, the sentences of ``warnings`` and
+        ``unreliable``, ``audit`` and ``bonds`` where there are any and the ``final`` value of
+        every output.
     """
     return {
         "end_time": float(result.attrs["simulated_time"]),
         "steps": asdict(steps_of(result)),
         "wall_time": float(result.attrs["wall_time"]),
+        "warnings": result.attrs["warnings"].splitlines(),
+        "unreliable": result.attrs["unreliable"].splitlines(),
+        **{name: json.loads(result.attrs[name]) for name in EXTRAS if name in result.attrs},
         "final": {
             str(name): series.to_numpy()[-1].item()
             for name, series in result.data_vars.items()
@@ -111,7 +119,7 @@ def cosim_table(result: xr.Dataset) -> Table:
 
 
 def _typed(values: NDArray[np.float64], variable: Variable) -> NDArray[np.generic]:
-    return values.astype(DTYPES[variable.type])
+    return values.astype(DTYPES[variable.type], copy=False)
 
 
 def _attributes(variable: Variable) -> dict[str, str]:

@@ -5,23 +5,16 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import TYPE_CHECKING, TypeAlias, cast
 
-from orchestrator import (
-    Connection,
-    FmuParticipant,
-    IsolatedParticipant,
-    MasterSettings,
-    System,
-)
+from orchestrator import Connection, FmuSource, MasterSettings, System
 
 from .motion import initial_speed
 from .sections import Track
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from collections.abc import Iterable
     from typing import Literal
 
     from build_fmus import FmuPaths
-    from orchestrator import Participant
     from vehicle_fmu.speed import SpeedLaw
 
     from .scenario import Scenario
@@ -39,7 +32,26 @@ SMALLEST_DIVISION = 1e-4
 def connect(
     scenario: Scenario, paths: FmuPaths, law: SpeedLaw, *, timeout: float | None = None
 ) -> System:
-    """Join track and vehicle.
+    """Join track and vehicle; see `fmu_sources`.
+
+    Raises
+    ------
+    orchestrator.errors.InputError
+        For an FMU that is missing, corrupt or another one.
+    """
+    sources = fmu_sources(scenario, paths, law, timeout=timeout)
+    return join(sources, scenario.vehicle.wheels)
+
+
+def join(sources: Iterable[FmuSource], wheels: int) -> System:
+    """Open the FMUs and connect them over so many wheels."""
+    return System([source.open() for source in sources], connections(wheels))
+
+
+def fmu_sources(
+    scenario: Scenario, paths: FmuPaths, law: SpeedLaw, *, timeout: float | None = None
+) -> tuple[FmuSource, FmuSource]:
+    """Name the FMUs and their start values.
 
     Parameters
     ----------
@@ -52,20 +64,25 @@ def connect(
     timeout : float, optional
         Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
 
-    Raises
-    ------
-    orchestrator.errors.InputError
-        For an FMU that is missing, corrupt or another one.
+    Returns
+    -------
+    tuple of FmuSource
+        The vehicle and the track.
     """
-
-    def participant(path: Path, name: str, values: dict[str, Value]) -> Participant:
-        if timeout is None:
-            return FmuParticipant(path, name=name, start_values=values)
-        return IsolatedParticipant(path, name=name, start_values=values, timeout=timeout)
-
-    vehicle = participant(paths.vehicle, "vehicle", vehicle_values(scenario, law))
-    track = participant(paths.track, "track", track_values(scenario, law))
-    return System([vehicle, track], connections(scenario.vehicle.wheels))
+    return (
+        FmuSource(
+            path=paths.vehicle,
+            name="vehicle",
+            start_values=vehicle_values(scenario, law),
+            timeout=timeout,
+        ),
+        FmuSource(
+            path=paths.track,
+            name="track",
+            start_values=track_values(scenario, law),
+            timeout=timeout,
+        ),
+    )
 
 
 def connections(wheels: int) -> list[Connection]:

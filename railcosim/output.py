@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import importlib.util
-import io
 import os
 import tempfile
 from contextlib import contextmanager
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .errors import InputError, RunError
+from .reserved_file import ReservedFile
 from .table import columns
 
 if TYPE_CHECKING:
@@ -28,6 +28,15 @@ DATA_SUFFIXES = (".nc", ".csv", ".parquet")
 FIGURE_SUFFIXES = (".png", ".pdf", ".svg")
 """Kinds of figure file."""
 
+
+ROWS_AT_ONCE = 4096
+"""Rows of a table that are in memory together as Python numbers."""
+
+REPLAY_SUFFIX = ".replay"
+"""End of the name of a file that repeats how a run failed."""
+
+OVERHEAD = 4 * 2**20
+"""Room for what a NetCDF file holds besides its arrays [bytes]."""
 
 TEMPORARY = ".railcosim-"
 """How the folder beside a result begins in which it is written."""
@@ -99,7 +108,7 @@ def write_dataset(passage: xr.Dataset, path: Path) -> None:
         ".csv": _write_csv,
         ".parquet": _write_parquet,
     }
-    with _replacing(path) as temporary:
+    with replacing(path) as temporary:
         writers[path.suffix.lower()](passage, temporary)
 
 
@@ -111,12 +120,12 @@ def write_figure(figure: Figure, path: Path) -> None:
     RunError
         Where it cannot be written.
     """
-    with _replacing(path) as temporary:
+    with replacing(path) as temporary:
         figure.savefig(temporary, dpi=150)
 
 
 @contextmanager
-def _replacing(path: Path) -> Iterator[Path]:
+def replacing(path: Path) -> Iterator[Path]:
     """Yield a temporary file that takes the place of ``path`` if the block succeeds."""
     try:
         with tempfile.TemporaryDirectory(dir=path.parent, prefix=TEMPORARY) as folder:
@@ -132,14 +141,12 @@ def _replacing(path: Path) -> Iterator[Path]:
 
 
 def _write_netcdf(passage: xr.Dataset, path: Path) -> None:
-    """Write the file in memory first: HDF5 ends the process when the disk is full."""
+    """Write everything; the room is taken first: HDF5 ends the process when the disk is full."""
     # HDF5 takes a slash for a group; names of FMU variables may have one.
     slashed = [str(name) for name in passage.data_vars if "/" in str(name)]
-    content = io.BytesIO()
-    passage.rename({name: name.replace("/", "|") for name in slashed}).to_netcdf(
-        content, engine="h5netcdf"
-    )
-    path.write_bytes(content.getbuffer())
+    renamed = passage.rename({name: name.replace("/", "|") for name in slashed})
+    with ReservedFile(path, OVERHEAD + passage.nbytes * 5 // 4) as file:
+        renamed.to_netcdf(file, engine="h5netcdf")
 
 
 def _write_csv(passage: xr.Dataset, path: Path) -> None:
@@ -148,7 +155,9 @@ def _write_csv(passage: xr.Dataset, path: Path) -> None:
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
         writer.writerow([column.label for column in series])
-        writer.writerows(zip(*(_plain(column.values) for column in series), strict=True))
+        for start in range(0, len(series[0].values), ROWS_AT_ONCE):
+            part = slice(start, start + ROWS_AT_ONCE)
+            writer.writerows(zip(*(_plain(column.values[part]) for column in series), strict=True))
 
 
 def _write_parquet(passage: xr.Dataset, path: Path) -> None:

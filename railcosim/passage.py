@@ -11,10 +11,12 @@ from threadpoolctl import threadpool_limits
 import orchestrator
 from build_fmus import Structure, default_directory, ensure_fmus
 from orchestrator import Master, Recorder
+from orchestrator.replay import ReplayCase
 
-from .coupled_system import connect, indicators, master_settings
+from .coupled_system import fmu_sources, indicators, join, master_settings
 from .dataset import assemble, count
 from .errors import InputError, RunError
+from .evidence import keeping_evidence
 from .input_tables import check_profiles
 from .motion import speed_law, travel_time
 from .run_record import attempts, doubts, programs, statistics
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from build_fmus import FmuPaths
-    from orchestrator import Outcome, System
+    from orchestrator import FmuSource, Outcome, System
     from vehicle_fmu.speed import SpeedLaw
 
     from .scenario import Scenario
@@ -45,6 +47,7 @@ def run_passage(
     *,
     fmus: str = "python",
     timeout: float | None = None,
+    replay: Path | None = None,
     directory: Path | None = None,
     notify: Callable[[str], None] | None = None,
     report: Callable[[Progress], None] | None = None,
@@ -59,6 +62,8 @@ def run_passage(
         Which build of the FMUs runs: ``python``.
     timeout : float, optional
         Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
+    replay : Path, optional
+        Replay file to write if the run fails.
     directory : Path, optional
         Where the FMUs are kept; `build_fmus.default_directory` without.
     notify : callable, optional
@@ -76,32 +81,41 @@ def run_passage(
     InputError
         For a scenario, a file it names or an FMU that cannot be used.
     RunError
-        Where the co-simulation cannot go on.
+        Where the co-simulation cannot go on; with the result so far.
     """
     law = speed_law(scenario.vehicle)
     check_profiles(scenario)
     paths = build_for(scenario, directory=directory, notify=notify)
     provenance = _provenance(paths)
+
+    def label(outcome: Outcome) -> xr.Dataset | None:
+        if len(recorder.time) < FEWEST_POINTS:
+            return None
+        return assemble(
+            scenario,
+            times=recorder.time,
+            series=_series(scenario, recorder),
+            attempts=attempts(outcome),
+            attributes={"fmus": fmus, **provenance, **statistics(outcome)},
+        )
+
     try:
         with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
-            system = connect(scenario, paths, law, timeout=timeout)
-            recorder, outcome = _simulate(scenario, law, system, report)
+            sources = fmu_sources(scenario, paths, law, timeout=timeout)
+            system = join(sources, scenario.vehicle.wheels)
+            recorder = Recorder([path for signal in SIGNALS for path in _paths(scenario, signal)])
+            master, case = _prepare(scenario, law, system, sources, recorder, report=report)
+            with keeping_evidence(case, replay, label):
+                outcome = master.run(case.start_time, case.stop_time)
     except orchestrator.InputError as error:
         raise InputError(str(error)) from error
-    except orchestrator.RunError as error:
-        raise RunError(str(error)) from error
     if notify is not None:
         for doubt in doubts(outcome, system):
             notify(doubt)
-    if len(recorder.time) < FEWEST_POINTS:
+    result = label(outcome)
+    if result is None:
         raise RunError("interrupted before there was anything to keep")
-    return assemble(
-        scenario,
-        times=recorder.time,
-        series=_series(scenario, recorder),
-        attempts=attempts(outcome),
-        attributes={"fmus": fmus, **provenance, **statistics(outcome)},
-    )
+    return result
 
 
 def build_for(
@@ -134,27 +148,34 @@ def build_for(
         ) from error
 
 
-def _simulate(
+def _prepare(
     scenario: Scenario,
     law: SpeedLaw,
     system: System,
+    sources: tuple[FmuSource, ...],
+    recorder: Recorder,
+    *,
     report: Callable[[Progress], None] | None,
-) -> tuple[Recorder, Outcome]:
-    """Run the master over the whole way."""
+) -> tuple[Master, ReplayCase]:
+    """Return the master over the whole way, and what it takes to repeat its run."""
     stop_time = travel_time(law, scenario.distance)
     settings = master_settings(scenario)
     control = settings.make_controller(stop_time)
     if report is not None:
         control = WatchedControl(control, stop_time=stop_time, report=report)
-    recorder = Recorder([path for signal in SIGNALS for path in _paths(scenario, signal)])
-    master = Master(
-        system,
-        settings,
-        controller=control,
-        events=indicators(scenario.vehicle.wheels),
-        observers=[recorder],
+    events = tuple(indicators(scenario.vehicle.wheels))
+    master = Master(system, settings, controller=control, events=events, observers=[recorder])
+    case = ReplayCase(
+        name="passage",
+        sources=sources,
+        connections=system.connections,
+        settings=settings,
+        events=events,
+        observed=tuple(recorder.choose(system.variables())),
+        start_time=0.0,
+        stop_time=stop_time,
     )
-    return recorder, master.run(0.0, stop_time)
+    return master, case
 
 
 def _paths(scenario: Scenario, signal: Signal) -> list[str]:

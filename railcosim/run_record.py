@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import asdict
 from importlib.metadata import version
 from platform import python_version
 from typing import TYPE_CHECKING
@@ -58,17 +60,24 @@ def doubts(outcome: Outcome, system: System) -> list[str]:
     return [*outcome.warnings, *incidents]
 
 
+def _bonds(outcome: Outcome) -> list[dict[str, str | float]]:
+    return [asdict(bond) | {"relative": bond.relative} for bond in outcome.bonds]
+
+
 def statistics(outcome: Outcome) -> dict[str, str | int | float]:
     """Say how the run went."""
     counts = outcome.statistics
     return {
         "complete": int(outcome.finished),
-        "stop_reason": outcome.reason.value,
+        "stop_reason": outcome.failure or outcome.reason.value,
         "simulated_time": outcome.end_time,
         "wall_time": outcome.wall_time,
         "iterations": counts.iterations,
         "switches": counts.switches,
         "steps_accepted": counts.accepted,
-        **({"warnings": "\n".join(outcome.warnings)} if outcome.warnings else {}),
+        "warnings": "\n".join(outcome.warnings),
+        "unreliable": "\n".join(outcome.unreliable),
+        **({} if outcome.audit is None else {"audit": json.dumps(asdict(outcome.audit))}),
+        **({"bonds": json.dumps(_bonds(outcome))} if outcome.bonds else {}),
         **{f"steps_rejected_{cause}": number for cause, number in counts.rejected.items()},
     }

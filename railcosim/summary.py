@@ -64,6 +64,8 @@ class Summary:
         What the master did.
     simulated_time, wall_time : float
         Time that passed in the simulation and on the clock [s].
+    warnings, unreliable : list of str
+        What makes the result doubtful, and what makes it wrong, a sentence each.
     """
 
     peak_contact_force: float | None
@@ -76,6 +78,8 @@ class Summary:
     steps: Steps
     simulated_time: float
     wall_time: float
+    warnings: list[str]
+    unreliable: list[str]
 
     def as_dict(self) -> dict[str, Any]:
         """Return the numbers as a nested dict, as ``--json`` prints them."""
@@ -117,6 +121,8 @@ def summarise(passage: xr.Dataset) -> Summary:
         steps=steps_of(passage),
         simulated_time=float(passage.attrs["simulated_time"]),
         wall_time=float(passage.attrs["wall_time"]),
+        warnings=passage.attrs["warnings"].splitlines(),
+        unreliable=passage.attrs["unreliable"].splitlines(),
     )
 
 

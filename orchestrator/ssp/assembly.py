@@ -2,10 +2,11 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from ..errors import SystemFileError, WiringError, close_matches
-from ..fmu import FmuParticipant
-from ..fmu_description import StartValue
+from ..fmu import FmuParticipant, StartValue
+from ..fmu_source import FmuSource
 from ..system import Connection, System
 from ..units import identity
 from .description import Component, Connector, Link, SystemDescription
@@ -24,16 +25,21 @@ class AssembledSystem:
         What it was made from.
     system : System
         Participants and connections.
+    sources : tuple of FmuSource
+        What the participants were made from.
     unused : tuple of str
         Names of parameter values that no variable has, which SSP wants to be passed over.
     """
 
     description: SystemDescription
     system: System
+    sources: tuple[FmuSource, ...]
     unused: tuple[str, ...]
 
 
-def assemble(description: SystemDescription, folder: Folder) -> AssembledSystem:
+def assemble(
+    description: SystemDescription, folder: Folder, *, timeout: float | None = None
+) -> AssembledSystem:
     """Put a system together.
 
     Parameters
@@ -42,6 +48,8 @@ def assemble(description: SystemDescription, folder: Folder) -> AssembledSystem:
         The system.
     folder : Folder
         Where its FMUs are.
+    timeout : float, optional
+        Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
 
     Raises
     ------
@@ -53,39 +61,40 @@ def assemble(description: SystemDescription, folder: Folder) -> AssembledSystem:
     system_wide = assignments(description.bindings)
     names = {component.name for component in description.components}
     unused += [item.name for item in system_wide if item.name.partition(".")[0] not in names]
-    participants = []
+    described, sources = {}, []
     for component in description.components:
-        participant, left = _participant(component, description, folder, system_wide)
-        participants.append(participant)
+        path, fmu, values, left = _read(component, description, folder, system_wide)
+        described[component.name] = fmu
+        sources.append(
+            FmuSource(path=path, name=component.name, start_values=values, timeout=timeout)
+        )
         unused += left
-    by_name = {participant.name: participant for participant in participants}
     for component in description.components:
         for connector in component.connectors:
-            _check_connector(by_name[component.name], connector)
-    connections = [_connection(link, description, by_name) for link in description.links]
-    system = System(participants, connections)
-    return AssembledSystem(description=description, system=system, unused=tuple(unused))
+            _check_connector(described[component.name], connector)
+    connections = [_connection(link, description, described) for link in description.links]
+    system = System([source.open() for source in sources], connections)
+    return AssembledSystem(
+        description=description, system=system, sources=tuple(sources), unused=tuple(unused)
+    )
 
 
-def _participant(
+def _read(
     component: Component,
     description: SystemDescription,
     folder: Folder,
     system_wide: Sequence[Assignment],
-) -> tuple[FmuParticipant, list[str]]:
+) -> tuple[Path, FmuParticipant, dict[str, StartValue], list[str]]:
+    """Return the FMU of a component, what it says, its start values and those it does not know."""
     path = folder.resolve(component.source)
     if path is None:
         raise SystemFileError(f"{component.name}: the source {component.source!r} is out of reach.")
-    bare = FmuParticipant(path, name=component.name)
+    fmu = FmuParticipant(path, name=component.name)
     wanted = [*assignments(component.bindings), *_own(component.name, system_wide)]
-    known = [item for item in wanted if item.name in bare.variables]
+    known = [item for item in wanted if item.name in fmu.variables]
     unused = [f"{component.name}.{item.name}" for item in wanted if item not in known]
-    values: dict[str, StartValue] = {
-        item.name: start_value(item, bare, description.units) for item in known
-    }
-    if not values:
-        return bare, unused
-    return FmuParticipant(path, name=component.name, start_values=values), unused
+    values = {item.name: start_value(item, fmu, description.units) for item in known}
+    return path, fmu, values, unused
 
 
 def _own(name: str, system_wide: Sequence[Assignment]) -> list[Assignment]:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from ..fmu_description import StartValue
+from ..fmu import StartValue
 from ..units import Linear, Unit, identity
 
 SettingValue = float | int | bool | str
@@ -145,10 +145,13 @@ class MasterChoices:
         Some of the attributes of `orchestrator.MasterSettings` by name.
     events : tuple of str
         Event indicators as ``component.variable``.
+    bonds : tuple of (str, str)
+        Forces and the motions they act along, as ``component.variable``.
     """
 
     settings: Mapping[str, SettingValue] = field(default_factory=dict)
     events: tuple[str, ...] = ()
+    bonds: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -3,7 +3,7 @@
 from dataclasses import fields
 
 from ..errors import close_matches
-from ..settings import MasterSettings
+from ..settings import MasterSettings, counts
 from .description import MasterChoices, SettingValue
 from .documents import Element
 
@@ -14,7 +14,6 @@ setting_names = tuple(item.name for item in fields(MasterSettings))
 """Attributes that the element ``master:Master`` may have."""
 
 _truths = ("extrapolate", "check_rollback")
-_counts = ("max_iterations", "max_switches", "max_rejections", "max_attempts")
 
 
 def read_master(annotations: Element | None) -> MasterChoices:
@@ -44,15 +43,19 @@ def read_master(annotations: Element | None) -> MasterChoices:
     master = ours[0].child("master:Master")
     if master is None:
         raise ours[0].error("master:Master is missing")
-    master.allow(attributes=setting_names, children=["master:Event"])
+    master.allow(attributes=setting_names, children=["master:Event", "master:Bond"])
     events = []
-    for event in master.children():
+    for event in master.children("master:Event"):
         event.allow(attributes=["indicator"])
         events.append(event.need("indicator"))
+    bonds = []
+    for bond in master.children("master:Bond"):
+        bond.allow(attributes=["force", "motion"])
+        bonds.append((bond.need("force"), bond.need("motion")))
     settings = {
         name: _read_setting(master, name) for name in setting_names if master.text(name) is not None
     }
-    return MasterChoices(settings=settings, events=tuple(events))
+    return MasterChoices(settings=settings, events=tuple(events), bonds=tuple(bonds))
 
 
 def refuse_master(annotations: Element | None) -> None:
@@ -84,4 +87,4 @@ def _read_setting(master: Element, name: str) -> SettingValue:
         return master.need(name)
     if name in _truths:
         return master.truth(name)
-    return master.integer(name) if name in _counts else master.number(name)
+    return master.integer(name) if name in counts else master.number(name)

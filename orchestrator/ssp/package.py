@@ -18,7 +18,9 @@ description_name = "SystemStructure.ssd"
 
 
 @contextmanager
-def open_system(path: Path, *, limits: ArchiveLimits = default_limits) -> Iterator[AssembledSystem]:
+def open_system(
+    path: Path, *, timeout: float | None = None, limits: ArchiveLimits = default_limits
+) -> Iterator[AssembledSystem]:
     """Read an .ssp or .ssd file and put its system together.
 
     The FMUs of an archive are there as long as the context lasts: run the system within it.
@@ -27,6 +29,8 @@ def open_system(path: Path, *, limits: ArchiveLimits = default_limits) -> Iterat
     ----------
     path : pathlib.Path
         The file; what it holds decides, not its ending.
+    timeout : float, optional
+        Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
     limits : ArchiveLimits
         What an archive may amount to.
 
@@ -45,18 +49,18 @@ def open_system(path: Path, *, limits: ArchiveLimits = default_limits) -> Iterat
     if not zipfile.is_zipfile(path):
         if path.suffix.lower() == ".ssp":
             raise SystemFileError(f"{path.name}: the file is no intact zip archive.")
-        yield _read(path, Folder(path=path.parent, is_closed=False))
+        yield _read(path, Folder(path=path.parent, is_closed=False), timeout)
         return
     with TemporaryDirectory(prefix="ssp-", ignore_cleanup_errors=True) as folder:
         _unpack(path, folder, limits)
         description = Path(folder) / description_name
         if not description.is_file():
             raise SystemFileError(f"{path.name}: the archive holds no {description_name}.")
-        yield _read(description, Folder(path=Path(folder), is_closed=True))
+        yield _read(description, Folder(path=Path(folder), is_closed=True), timeout)
 
 
-def _read(path: Path, folder: Folder) -> AssembledSystem:
-    return assemble(read_description(path, folder), folder)
+def _read(path: Path, folder: Folder, timeout: float | None) -> AssembledSystem:
+    return assemble(read_description(path, folder), folder, timeout=timeout)
 
 
 def _unpack(path: Path, folder: str, limits: ArchiveLimits) -> None:

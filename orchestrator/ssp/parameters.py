@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from ..fmu_description import StartValue
+from ..fmu import StartValue
 from .common import for_tools, other_transformations, read_transformation, read_units, type_names
 from .description import MappingEntry, ParameterBinding, ParameterValue
 from .documents import Element, read_document

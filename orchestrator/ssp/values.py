@@ -4,8 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from ..errors import WiringError
-from ..fmu import FmuParticipant
-from ..fmu_description import StartValue
+from ..fmu import FmuParticipant, StartValue
 from ..units import Linear, Unit, identity
 from .description import ParameterBinding
 from .exchanged_units import convert_between

@@ -5,7 +5,7 @@ from typing import Any
 
 from lxml import etree
 
-from ..fmu_description import StartValue
+from ..fmu import StartValue
 from ..units import Linear, Unit, base_units, identity
 from .description import (
     Component,
@@ -147,6 +147,8 @@ def _add_master(root: Any, master: MasterChoices) -> None:  # noqa: ANN401 - lxm
     element = _add(annotation, "master:Master", **settings)
     for indicator in master.events:
         _add(element, "master:Event", indicator=indicator)
+    for force, motion in master.bonds:
+        _add(element, "master:Bond", force=force, motion=motion)
 
 
 def _add(parent: Any, tag: str, **attributes: str) -> Any:  # noqa: ANN401 - lxml carries no types

@@ -12,7 +12,7 @@ from railcosim.summary import CAUSES
 def make_passage():
     """Make a result by hand: given series, zero for every other one."""
 
-    def make(distance, scenario=None, *, series=None, complete=True):
+    def make(distance, scenario=None, *, series=None, complete=True, unreliable=""):
         scenario = scenario or Scenario()
         distance = np.asarray(distance, dtype=float)
         times = (distance - distance[0]) / scenario.vehicle.constant_speed
@@ -41,6 +41,8 @@ def make_passage():
                 "wall_time": 1.5,
                 "iterations": 7,
                 "steps_accepted": times.size - 1,
+                "warnings": "",
+                "unreliable": unreliable,
                 **rejected,
             },
         )

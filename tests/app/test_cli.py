@@ -29,13 +29,13 @@ def runs(monkeypatch, make_passage):
     """Let `run` end as it should end, and tell which scenarios were run."""
     seen = []
 
-    def runs(*, ends=None, complete=True):
+    def runs(*, ends=None, complete=True, unreliable=""):
         def run_passage(scenario, **_):
             seen.append(scenario)
             if ends is not None:
                 raise ends
             distance = DISTANCE if complete else DISTANCE[:2]
-            return make_passage(distance, scenario, complete=complete)
+            return make_passage(distance, scenario, complete=complete, unreliable=unreliable)
 
         monkeypatch.setattr(cli, "run_passage", run_passage)
         return seen
@@ -162,6 +162,17 @@ def test_an_interrupted_run_ends_with_1_and_a_valid_result(call, runs, tmp_path)
         assert stored.attrs["complete"] == 0
 
 
+def test_a_wrong_result_is_written_and_ends_with_1(call, runs, tmp_path):
+    runs(unreliable="The steps are too large.")
+    path = tmp_path / "passage.nc"
+    result = call("run", "--json", "--output", path)
+    assert result.exit_code == 1
+    assert one_sentence(result) == "railcosim: the result is wrong: The steps are too large."
+    assert json.loads(result.stdout)["unreliable"] == ["The steps are too large."]
+    with xr.open_dataset(path, engine="h5netcdf") as stored:
+        assert stored.attrs["unreliable"] == "The steps are too large."
+
+
 @pytest.mark.parametrize(("holds", "code"), [(True, 0), (None, 0), (False, 1)])
 def test_check_prints_verdicts_and_ends_with_1_if_one_fails(call, monkeypatch, holds, code):
     verdict = Verdict(claim="states are freed", holds=holds, detail="10 bytes per state")
@@ -222,3 +233,21 @@ def test_wrong_command_lines_end_with_2_and_one_line(arguments, message):
     assert message in answer.stderr
     assert answer.stderr.count("\n") == 1
     assert answer.stdout == ""
+
+
+def test_a_passage_that_fails_keeps_its_result_and_can_be_replayed(tmp_path):
+    """A tolerance that the smallest step allowed cannot meet."""
+    keys = ("tolerance=1e-7", "min_step=1e-4")
+    options = [word for key in keys for word in ("--set", f"master.{key}")]
+    output, runner = tmp_path / "passage.nc", CliRunner()
+    failed = runner.invoke(cli.app, ["run", "--quiet", "--output", str(output), *options])
+    assert failed.exit_code == 1
+    with xr.open_dataset(output, engine="h5netcdf") as stored:
+        assert stored.attrs["complete"] == 0
+        assert stored.attrs["stop_reason"] in failed.stderr
+    answer = runner.invoke(cli.app, ["replay", str(tmp_path / "passage.replay"), "--json"])
+    assert (answer.exit_code, answer.stderr) == (0, "")
+    numbers = json.loads(answer.stdout)
+    assert numbers["reproduced"]
+    assert not numbers["from_start"]
+    assert {step["participant"] for step in numbers["steps"]} == {"vehicle", "track"}

@@ -1,5 +1,6 @@
 import csv
 import errno
+import resource
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -145,3 +146,34 @@ def test_a_slash_in_a_name_does_not_stop_netcdf(passage, tmp_path):
     write_dataset(passage.rename({"contact_force": "a.force/x"}), path)
     with xr.open_dataset(path, engine="h5netcdf") as stored:
         assert "a.force|x" in stored
+
+
+def test_a_full_disk_ends_in_one_sentence_and_keeps_the_old_file(passage, tmp_path):
+    path = tmp_path / "passage.nc"
+    path.write_text("before")
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (10**5, limits[1]))
+    try:
+        with pytest.raises(RunError, match=r"passage\.nc cannot be written: File too large"):
+            write_dataset(passage, path)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert path.read_text() == "before"
+    assert [*tmp_path.iterdir()] == [path]
+
+
+def test_no_room_stays_reserved(passage, tmp_path):
+    path = tmp_path / "passage.nc"
+    write_dataset(passage, path)
+    assert path.stat().st_size < 10**6
+    assert path.stat().st_blocks * 512 < 10**6
+
+
+def test_long_tables_are_written_in_parts(make_passage, tmp_path):
+    distance = np.linspace(-1.0, 1.0, 10_001)
+    path = tmp_path / "passage.csv"
+    write_dataset(make_passage(distance), path)
+    with path.open(encoding="utf-8", newline="") as file:
+        _, *rows = csv.reader(file)
+    assert len(rows) == distance.size
+    assert [float(row[1]) for row in rows] == pytest.approx(distance, abs=1e-12)

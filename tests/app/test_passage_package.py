@@ -35,11 +35,14 @@ def test_the_package_runs_the_same_passage(fmus, tmp_path):
     system = run_system(path, CosimOptions())
     assert passage.attrs["switches"] == system.attrs["switches"] > 0
     assert system["time"].to_numpy() == pytest.approx(passage["time"].to_numpy(), abs=1e-15)
+    left = {str(name) for name, series in system.data_vars.items() if series.dims == ("time",)}
     for signal in SIGNALS:
         for k in passage[signal.dim].to_numpy():
             expected = passage[signal.name].sel({signal.dim: k}).to_numpy().astype(float)
             scale = 1e-9 * np.abs(expected).max()
             assert system[signal.path(k)].to_numpy() == pytest.approx(expected, rel=0, abs=scale)
+            left.remove(signal.path(k))
+    assert left == set()
 
 
 def test_the_package_of_the_papers_case(fmus, tmp_path):

@@ -80,6 +80,8 @@ def test_json_has_the_keys_of_the_command_line(make_passage):
         "steps",
         "simulated_time",
         "wall_time",
+        "warnings",
+        "unreliable",
     ]
     assert document["steps"] == {
         "accepted": DISTANCE.size - 1,

@@ -8,6 +8,7 @@ from fmpy.validation import validate_fmu
 from lxml import etree
 
 from build_fmus import Structure, ensure_fmus
+from orchestrator import FmuParticipant
 
 
 def descriptions(fmus):
@@ -64,6 +65,11 @@ def test_outputs_depend_on_inputs_through_steps_only(fmus):
         else:
             assert initial["wheel[1].contact_force"] == set()
             assert initial["wheel[1].displacement"] == {"wheel[1].rail_displacement"}
+        participant = FmuParticipant(path)
+        assert participant.dependencies[names[int(outputs[0].get("index")) - 1]] == frozenset()
+        for name, known in initial.items():
+            inputs = {item for item in known if participant.variables[item].causality == "input"}
+            assert participant.initial_dependencies[name] == inputs
 
 
 def test_capabilities_are_declared(fmus):

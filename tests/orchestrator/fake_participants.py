@@ -28,6 +28,7 @@ class Fake:
 
     can_serialise_state = False
     can_vary_step = True
+    provides_directional_derivatives = False
     inputs = ()
     outputs = ()
     details = MappingProxyType({})
@@ -42,9 +43,14 @@ class Fake:
             for variable in names:
                 details = self.details.get(variable, {})
                 self.variables[variable] = Variable(name=variable, causality=causality, **details)
+        self.dependencies = dict.fromkeys(self.outputs)
         self.calls = []
         self.alive = 0
         self.state = None
+
+    @property
+    def initial_dependencies(self):
+        return self.dependencies
 
     def bind(self, *, inputs, outputs, observed, input_shape):
         self.input_shape = input_shape
@@ -100,6 +106,9 @@ class Fake:
         self.time = time + step_size
         return OK
 
+    def directional_derivatives(self, out):
+        raise NotImplementedError
+
     def save(self):
         self.alive += 1
         return deepcopy((self.state, self.held, self.values, self.result, self.time))
@@ -125,12 +134,38 @@ class Fake:
 
 
 class Linear(Fake):
-    """x' = A x + B u + c, y = C x + D u + e, exact for inputs on straight lines."""
+    """x' = A x + B u + c, y = C x + D u + e, exact for inputs on straight lines.
 
-    def __init__(self, name, *, inputs, outputs, A, B, C, D, x0, c=None, e=None, **options):
+    With `declares` it says what D says; with `derivatives` it gives what that makes of D.
+    """
+
+    def __init__(
+        self,
+        name,
+        *,
+        inputs,
+        outputs,
+        A,
+        B,
+        C,
+        D,
+        x0,
+        c=None,
+        e=None,
+        declares=False,
+        derivatives=None,
+        **options,
+    ):
         self.inputs, self.outputs = tuple(inputs), tuple(outputs)
         self.details = options.pop("details", {})
         super().__init__(name, **options)
+        self.derivatives = derivatives
+        self.provides_directional_derivatives = derivatives is not None
+        if declares:
+            self.dependencies = {
+                output: frozenset(name for name, gain in zip(inputs, row, strict=True) if gain)
+                for output, row in zip(outputs, np.array(D).tolist(), strict=True)
+            }
         self.A, self.B, self.C, self.D = (np.array(m, dtype=float) for m in (A, B, C, D))
         self.c = np.zeros(len(self.A)) if c is None else np.array(c, dtype=float)
         self.e = np.zeros(len(self.C)) if e is None else np.array(e, dtype=float)
@@ -143,6 +178,13 @@ class Linear(Fake):
     def initial_outputs(self, values):
         return self.C @ self.state + self.D @ values + self.e
 
+    def directional_derivatives(self, out):
+        answer = self.derivatives(self.D)
+        if isinstance(answer, Status):
+            return answer
+        out[:] = answer[np.ix_(self._from, self._into)]
+        return OK
+
     def advance(self, over):
         step_size = over.step_size
         if step_size not in self.operators:
@@ -154,6 +196,26 @@ class Linear(Fake):
         everything = np.concatenate([self.state, over.start, over.end - over.start, [1.0]])
         self.state = self.operators[step_size] @ everything
         return self.C @ self.state + self.D @ over.end + self.e
+
+
+def static(name, *, inputs, outputs, D, e=None, kind=Linear, **options):
+    """y = D u + e, without memory."""
+    return kind(
+        name,
+        inputs=inputs,
+        outputs=outputs,
+        A=np.zeros((0, 0)),
+        B=np.zeros((0, len(inputs))),
+        C=np.zeros((len(outputs), 0)),
+        D=D,
+        e=e,
+        x0=[],
+        **options,
+    )
+
+
+def wire(source, target, conversion=None):
+    return Connection(source=source, target=target, conversion=conversion)
 
 
 class Spring(Fake):
@@ -243,7 +305,21 @@ def oscillators_exact(t, kc=100.0, dc=1.0, k=10.0, m=1.0, x1=1.0):
     return expm(A * t) @ np.array([x1, 0, 0, 0])
 
 
-def drop(mass=1.0, stiffness=1e4, gravity=10.0, height=0.1, power=1.0):
+class Contact(Spring):
+    """A spring that is told the velocity too and does not use it: a contact without damping."""
+
+    inputs = ("displacement", "velocity")
+
+
+def drop(
+    mass=1.0,
+    stiffness=1e4,
+    gravity=10.0,
+    height=0.1,
+    power=1.0,
+    displacement_nominal=0.1,
+    exchanges_velocity=False,
+):
     """A mass that falls on a spring that cannot pull: x downwards, contact for x > 0."""
     ball = Linear(
         "ball",
@@ -255,9 +331,9 @@ def drop(mass=1.0, stiffness=1e4, gravity=10.0, height=0.1, power=1.0):
         D=np.zeros((3, 1)),
         c=[0, gravity],
         x0=[-height, 0],
-        details={"displacement": {"nominal": 0.1}},
+        details={"displacement": {"nominal": displacement_nominal}, "velocity": {"nominal": 1.4}},
     )
-    spring = Spring(
+    spring = (Contact if exchanges_velocity else Spring)(
         "spring",
         lambda x: stiffness * max(x, 0.0) ** power,
         details={"force": {"nominal": 1e2, "minimum": 0.0}},
@@ -266,4 +342,6 @@ def drop(mass=1.0, stiffness=1e4, gravity=10.0, height=0.1, power=1.0):
         Connection(source="ball.displacement", target="spring.displacement"),
         Connection(source="spring.force", target="ball.force"),
     ]
+    if exchanges_velocity:
+        wires.append(Connection(source="ball.velocity", target="spring.velocity"))
     return System([ball, spring], wires)

@@ -112,9 +112,9 @@ def test_a_return_within_the_next_step_is_found(begin):
 
 
 def test_a_step_too_inaccurate_to_land_with_gives_up_the_search():
-    # The exchanged value bends at 0.5: landing on the switch at 0.52 in one step is 20 times too
+    # The exchanged value bends at 0.475: landing on the switch at 0.495 in one step is 20 times too
     # inaccurate, so that smaller steps are taken first, and the switch is found from closer.
-    signals = Signals(switch=lambda t: 0.52 - t, bend=lambda t: 50.0 * max(t - 0.5, 0.0) ** 2)
+    signals = Signals(switch=lambda t: 0.495 - t, bend=lambda t: 50.0 * max(t - 0.475, 0.0) ** 2)
     sink = Answering("sink", lambda _t, _h: None)
     master = Master(
         System([signals, sink], [Connection(source="signals.bend", target="sink.u")]),
@@ -123,12 +123,12 @@ def test_a_step_too_inaccurate_to_land_with_gives_up_the_search():
         events=["signals.switch"],
     )
     outcome = master.run(0.0, 0.6)
-    assert times(outcome) == pytest.approx([0.52], abs=1e-9)
+    assert times(outcome) == pytest.approx([0.495], abs=1e-9)
     log_ = outcome.step_log
-    rejected = log_[np.isclose(log_["time"], 0.5) & (log_["cause"] > 0)]
+    rejected = log_[np.isclose(log_["time"], 0.475) & (log_["cause"] > 0)]
     assert Cause.ERROR in rejected["cause"]
     accepted = log_[log_["cause"] == 0]
-    assert np.sum((accepted["time"] > 0.499) & (accepted["time"] < 0.52 - 1e-9)) > 2
+    assert np.sum((accepted["time"] > 0.474) & (accepted["time"] < 0.495 - 1e-9)) > 2
 
 
 def test_the_switch_just_landed_on_is_not_the_next_one():

@@ -202,3 +202,9 @@ def test_unknown_variables_of_connections_are_refused(fmu):
             [mass],
             [Connection(source="OrchestratorTestMass.x", target="OrchestratorTestMass.forces")],
         )
+
+
+def test_an_fmu_that_says_nothing_of_its_dependences_is_not_guessed_at(fmu):
+    mass = FmuParticipant(fmu)
+    assert mass.dependencies == dict.fromkeys(("x", "steps", "v", "moving"))
+    assert not mass.provides_directional_derivatives

@@ -161,8 +161,8 @@ def test_states_can_be_serialised(mass):
 def test_a_process_killed_from_outside_between_steps_is_replaced(mass):
     mass.set_inputs(np.array([2.0]))
     mass.step(0.0, 0.1)
-    mass._worker._process.kill()
-    mass._worker._process.wait()
+    mass._process._worker._process.kill()
+    mass._process._worker._process.wait()
     mass.step(0.1, 0.1)
     observed = np.empty(1)
     mass.get_observed(observed)
@@ -170,8 +170,18 @@ def test_a_process_killed_from_outside_between_steps_is_replaced(mass):
     assert "SIGKILL" in mass.incidents[0]
 
 
+def test_a_state_of_a_process_that_is_gone_can_still_be_serialised(mass):
+    mass.set_inputs(np.array([2.0]))
+    mass.step(0.0, 0.1)
+    state = mass.save()
+    data = mass.serialise(state)
+    mass.free()
+    assert mass.serialise(state) == data
+    assert mass.process is None
+
+
 def test_nothing_is_left_of_the_process(mass):
-    process = mass._worker._process.pid
+    process = mass._process._worker._process.pid
     mass.free()
     with pytest.raises(ProcessLookupError):
         os.kill(process, 0)
@@ -187,8 +197,8 @@ def test_neither_saved_states_nor_the_way_to_them_pile_up(mass):
         mass.set_inputs(np.array([2.0]))
         mass.step(0.01 * n, 0.01)
         mass.release(state)
-    point, length = mass._point, 0
+    point, length = mass._process.journal._point, 0
     while point.before is not None:
         point, length = point.before, length + 1
     assert length <= 2 * 100
-    assert mass._states == {}
+    assert mass._process.journal._states == {}

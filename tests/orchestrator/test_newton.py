@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-from orchestrator.newton import NewtonCoupling, fixed_point
+from orchestrator.newton import NewtonCoupling, fixed_point, most_step_sizes
 
 
 class Loop:
     """A block that computes exp(-z) for one torn value z."""
 
     unknowns = np.array([0])
+    guess = None
     names = ("z",)
     nominal, lower, upper = np.ones(1), np.full(1, -np.inf), np.full(1, np.inf)
 
@@ -68,3 +69,12 @@ def test_every_step_size_has_a_jacobian_of_its_own(loop, coupling):
     coupling.commit()
     assert attempt(loop, coupling, step_size=2.0) != kept
     assert attempt(loop, coupling) == kept
+
+
+def test_jacobians_are_kept_for_a_bounded_number_of_step_sizes():
+    coupling = NewtonCoupling([])
+    for n in range(1, 2000):
+        coupling.attempt(0.0, 1.0 / n, np.empty(0), np.empty(0))
+        coupling.commit()
+    assert len(coupling._by_step_size) == most_step_sizes
+    assert 1.0 / 1999 in coupling._by_step_size

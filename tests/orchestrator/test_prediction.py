@@ -1,4 +1,4 @@
-"""The straight line through the last two accepted points."""
+"""The straight line through the last accepted point and another one."""
 
 import numpy as np
 import pytest
@@ -45,3 +45,22 @@ def test_predictions_are_independent_of_each_other():
     kept = history.predict(1.0)
     history.predict(2.0)
     assert kept == pytest.approx([3.0])
+
+
+@pytest.mark.parametrize("size", [0.1, 0.5, 2.0])
+def test_the_miss_of_a_parabola_tells_its_curvature_whatever_the_steps(size):
+    def parabola(t):
+        return np.array([1.0 - 2.0 * t + 1.5 * t**2])
+
+    history = History(*unbounded)
+    history.restart(parabola(-0.25))
+    history.append(parabola(0.0), 0.25)
+    miss = abs(parabola(size) - history.predict(size))[0] * history.curvature_factor(size)
+    assert miss == pytest.approx(3.0 * size**2, rel=1e-12)
+    history.restart(parabola(0.0))
+    assert not history.has_past
+    history.look_ahead(parabola(3.0), 3.0)
+    assert history.has_slope
+    assert not history.has_past
+    miss = abs(parabola(size) - history.predict(size))[0] * history.curvature_factor(size)
+    assert miss == pytest.approx(3.0 * size**2, rel=1e-12)

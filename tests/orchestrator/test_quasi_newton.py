@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from orchestrator.decision import Cause
+from orchestrator.decision import Cause, Failure
 from orchestrator.quasi_newton import FixedPoint, broyden
 
 
@@ -30,8 +30,10 @@ class Problem:
         self.last = z.copy()
         self.result = np.asarray(self.function(z), dtype=float)
 
-    def solve(self, start, inverse=None):
-        return self.equations.solve(self.evaluate, lambda: self.result, np.array(start), inverse)
+    def solve(self, start, inverse=None, guess=None):
+        return self.equations.solve(
+            self.evaluate, lambda: self.result, np.array(start), inverse, guess
+        )
 
 
 def test_a_linear_map_takes_one_jacobian_and_one_step():
@@ -141,3 +143,78 @@ def test_the_update_satisfies_the_secant_equation_and_changes_nothing_else():
     orthogonal = np.cross(moved, random.normal(size=3))
     difference = np.linalg.inv(updated) - np.linalg.inv(inverse)
     assert difference @ orthogonal == pytest.approx(np.zeros(3), abs=1e-10)
+
+
+matrix = np.array([[0.5, 4.0, 0.0], [-0.2, -1.5, 2.0], [0.1, 0.0, 0.4]])
+true_inverse = np.linalg.inv(matrix - np.eye(3))
+
+
+def solved_with(guess, **options):
+    problem = Problem(lambda z: matrix @ z + 1.0, 3, **options)
+    solution = problem.solve(np.zeros(3), guess=guess)
+    assert solution.failure is None
+    exact = np.linalg.solve(np.eye(3) - matrix, np.ones(3))
+    assert problem.last == pytest.approx(exact, abs=1e-8)
+    assert solution.evaluations == problem.count
+    return solution
+
+
+def test_a_true_guess_saves_the_finite_differences():
+    assert solved_with(None).evaluations == 1 + 3 + 2
+    assert solved_with(lambda: true_inverse).evaluations == 2
+
+
+@pytest.mark.parametrize(
+    "guess",
+    [
+        true_inverse.T,
+        -true_inverse,
+        -np.eye(3),
+        np.zeros((3, 3)),
+        1e200 * true_inverse,
+        np.full((3, 3), np.nan),
+        0.9 * true_inverse,
+    ],
+    ids=["transposed", "wrong sign", "handing on", "zero", "huge", "not a number", "inaccurate"],
+)
+def test_a_wrong_guess_costs_evaluations_and_nothing_else(guess):
+    kept = guess.copy()
+    assert solved_with(lambda: guess, max_iterations=3).evaluations <= 1 + 3 + 3
+    assert np.array_equal(guess, kept, equal_nan=True)
+
+
+def test_a_guess_that_leads_where_nothing_can_be_computed_is_undone():
+    problem = Problem(np.cos, 1)
+    evaluate = problem.evaluate
+
+    def within(z):
+        return Failure(Cause.DISCARD, "too far") if abs(z[0]) > 2.0 else evaluate(z)
+
+    problem.evaluate = within
+    # The correction with this guess leads to z = -100.
+    assert problem.solve([0.0], guess=lambda: np.array([[100.0]])).failure is None
+    assert problem.last == pytest.approx([0.7390851332151607], abs=1e-9)
+
+
+def test_what_is_known_counts_more_than_a_guess():
+    def never():
+        raise AssertionError("it was asked")
+
+    problem = Problem(lambda z: -2.0 * z + 3.0, 1)
+    assert problem.solve([0.0], np.array([[-1.0 / 3.0]]), never).evaluations == 2
+    assert problem.solve([1.0], guess=never).evaluations == 1
+
+
+def test_broyden_and_differences_take_over_from_a_guess():
+    """Half of the true derivative contracts at first; the solution is the same to the tolerance."""
+    problem = Problem(lambda z: [z[0] - (z[0] ** 3 - 2.0)], 1)
+    solution = problem.solve([1.3], guess=lambda: np.array([[-1.0 / 9.0]]))
+    assert problem.last == pytest.approx([2.0 ** (1.0 / 3.0)], abs=1e-9)
+    assert solution.inverse == pytest.approx(-1.0 / (3.0 * 2.0 ** (2.0 / 3.0)), rel=1e-2)
+
+
+def test_a_correction_that_makes_it_worse_is_undone():
+    """Newton's iteration on arctan runs away from beyond 1.39; the wrong guess leads to z = 50."""
+    problem = Problem(lambda z: z - np.arctan(z), 1)
+    assert problem.solve([1.0], guess=lambda: np.array([[200.0 / np.pi]])).failure is None
+    assert problem.last == pytest.approx([0.0], abs=1e-9)

@@ -38,6 +38,13 @@ def test_an_explicit_run_that_cannot_work_is_refused():
         run_passage(scenario)
 
 
+@pytest.mark.slow
+def test_an_explicit_run_that_only_jumps_about_is_marked_as_wrong():
+    """It ends with 3 MN."""
+    scenario = read_scenario(None, ("master.algorithm=gauss_seidel", "master.step=5e-5"))
+    assert "jumps about from step to step" in run_passage(scenario).attrs["unreliable"]
+
+
 def test_isolated_fmus_give_the_same_passage_bit_for_bit():
     scenario = read_scenario(None, ("run.approach=0.2", "run.departure=0.1"))
     inside, outside = run_passage(scenario), run_passage(scenario, timeout=60.0)

@@ -10,7 +10,7 @@ import pytest
 from orchestrator import Master, MasterSettings, Recorder
 from orchestrator.ssp import open_system
 
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[1] / "orchestrator")]
 
 
 @pytest.fixture(scope="session")
@@ -19,6 +19,14 @@ def relay(tmp_path_factory):
     from relay_fmu import build  # noqa: PLC0415 - importable from here on only
 
     return Path(build(tmp_path_factory.mktemp("fmus")))
+
+
+@pytest.fixture(scope="session")
+def faulty(tmp_path_factory):
+    """Return the path of an FMU with faults on demand."""
+    from mass_fmu import build  # noqa: PLC0415 - importable from here on only
+
+    return Path(build(tmp_path_factory.mktemp("fmus"), "FaultyMass"))
 
 
 @pytest.fixture

@@ -34,7 +34,8 @@ def test_the_numbers_as_json(put, call):
     result = call(put(a_system()), "--json")
     assert (result.exit_code, result.stderr) == (0, "")
     numbers = json.loads(result.stdout)
-    assert set(numbers) == {"end_time", "steps", "wall_time", "final"}
+    assert numbers["warnings"] == numbers["unreliable"] == []
+    assert set(numbers) == {"end_time", "steps", "wall_time", "warnings", "unreliable", "final"}
     assert numbers["end_time"] == 1.5
     assert numbers["steps"]["accepted"] == 4
     assert set(numbers["steps"]["rejected"]) == {
@@ -57,6 +58,27 @@ def test_the_numbers_as_json(put, call):
         "b.counted": 0,
         "b.raised": True,
     }
+
+
+@pytest.mark.parametrize(
+    ("bond", "part"),
+    [
+        ("a.y", "--bond a.y must name two outputs"),
+        ("a.y,b.nothing", "b has no variable 'nothing'"),
+        ("a.y,a.y", "a.y has the unit"),
+    ],
+)
+def test_what_is_no_bond_ends_with_2(put, call, bond, part):
+    result = call(put(a_system()), "--bond", bond)
+    assert result.exit_code == 2
+    assert part in " ".join(result.stderr.split())
+
+
+def test_an_audit_is_reported_as_json(put, call):
+    numbers = json.loads(call(put(a_system()), "--json", "--audit", "2").stdout)
+    assert numbers["audit"]["steps"] == 2
+    assert numbers["audit"]["optimism"] is None
+    assert call(put(a_system()), "--audit", "0").exit_code == 2
 
 
 def test_a_table_without_json_and_nothing_when_quiet(put, call):

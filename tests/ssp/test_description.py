@@ -149,6 +149,7 @@ everything = SystemDescription(
             "max_rejections": 7,
             "extrapolate": False,
         },
+        bonds=(("a.y", "b.seen"), ("b.seen", "a.y")),
         events=("a.y[1]",),
     ),
 )

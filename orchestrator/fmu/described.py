@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from .fmu_description import read_fmu
-from .participant import Variable
-from .units import Unit
+from ..participant import Variable
+from ..units import Unit
+from .reading import read_fmu
 
 
 class DescribedFmu:
@@ -37,15 +37,30 @@ class DescribedFmu:
 
     @property
     def can_save_state(self) -> bool:
-        """Whether it claims canGetAndSetFMUstate."""
+        """Whether it claims to save and restore states."""
         return self._description.can_save_state
 
     @property
     def can_serialise_state(self) -> bool:
-        """Whether it claims canSerializeFMUstate."""
+        """Whether it claims to serialise them."""
         return self._description.can_serialise_state
 
     @property
     def can_vary_step(self) -> bool:
         """Whether it claims canHandleVariableCommunicationStepSize."""
         return self._description.can_vary_step
+
+    @property
+    def dependencies(self) -> Mapping[str, frozenset[str] | None]:
+        """For every output the inputs in its ModelStructure; None where that is silent."""
+        return self._description.dependencies
+
+    @property
+    def initial_dependencies(self) -> Mapping[str, frozenset[str] | None]:
+        """For every output the inputs in its InitialUnknowns; None where they are silent."""
+        return self._description.initial_dependencies
+
+    @property
+    def provides_directional_derivatives(self) -> bool:
+        """Whether it claims providesDirectionalDerivative."""
+        return self._description.provides_directional_derivatives
