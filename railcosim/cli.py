@@ -3,10 +3,11 @@
 import json
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict
 from enum import StrEnum
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -32,6 +33,7 @@ from .passage_package import ensure_package
 from .progress import progress_bar
 from .scenario import Scenario
 from .scenario_file import read_scenario
+from .signals import ContactSide
 from .summary import summarise
 from .summary_table import summary_table
 from .verdict_table import verdict_table
@@ -48,8 +50,18 @@ app = typer.Typer(
 )
 
 
-PACKAGE_NAME = "Passage.ssp"
-"""File of the paper's case as a system of FMUs."""
+class ContactName(StrEnum):
+    """Which of the two FMUs has the contacts."""
+
+    VEHICLE = "vehicle"
+    TRACK = "track"
+
+
+PACKAGE_NAMES: Mapping[ContactSide, str] = {
+    "vehicle": "Passage.ssp",
+    "track": "PassageContactOnTrack.ssp",
+}
+"""Files of the paper's case as a system of FMUs."""
 
 
 class AlgorithmName(StrEnum):
@@ -110,6 +122,9 @@ def run(
         typer.Option("--set", metavar="KEY=VALUE", help="Replace a key, as in flat.depth=1e-3."),
     ] = None,
     fmus: Annotated[FmuKind, typer.Option(help="Which build of the FMUs runs.")] = FmuKind.PYTHON,
+    contact: Annotated[
+        ContactName, typer.Option(help="Which FMU has the contacts.")
+    ] = ContactName.VEHICLE,
     isolate: Annotated[
         bool, typer.Option("--isolate", help="Run each FMU in a process of its own.")
     ] = False,
@@ -136,9 +151,9 @@ def run(
         if plot is not None:
             check_writable(plot, option="--plot", suffixes=FIGURE_SUFFIXES)
         limit = _time_limit(timeout, isolate=isolate)
-        for note in notes(case):
+        for note in notes(case, contact.value):
             _say(f"note: {note}")
-        passage = _followed_run(case, fmus, limit, quiet=quiet)
+        passage = _followed_run(case, fmus, contact, limit, quiet=quiet)
         if output is not None:
             write_dataset(passage, output)
         if plot is not None:
@@ -214,14 +229,15 @@ def build(
         Path | None, typer.Option("--output", metavar="FOLDER", help="Where to; dist/ without.")
     ] = None,
 ) -> None:
-    """Build the FMUs of the paper's case and its system where they are missing or stale."""
+    """Build the FMUs of the paper's case and its systems where they are missing or stale."""
     with _exit_codes():
         folder = directory or default_directory()
-        paths = build_for(Scenario(), directory=folder, notify=_say)
-        package = folder / PACKAGE_NAME
-        ensure_package(Scenario(), paths, package, notify=_say)
-        for path in (paths.track, paths.vehicle, package):
-            typer.echo(path)
+        for contact, name in PACKAGE_NAMES.items():
+            paths = build_for(Scenario(), contact=contact, directory=folder, notify=_say)
+            package = folder / name
+            ensure_package(Scenario(), paths, package, contact=contact, notify=_say)
+            for path in (paths.track, paths.vehicle, package):
+                typer.echo(path)
 
 
 @app.command()
@@ -263,13 +279,14 @@ def _time_limit(timeout: float | None, *, isolate: bool) -> float | None:
 
 
 def _followed_run(
-    case: Scenario, fmus: FmuKind, timeout: float | None, *, quiet: bool
+    case: Scenario, fmus: FmuKind, contact: ContactName, timeout: float | None, *, quiet: bool
 ) -> xr.Dataset:
     """Run with a progress bar on stderr, or without a word."""
+    run_case = partial(run_passage, case, fmus=fmus.value, contact=contact.value, timeout=timeout)
     if quiet:
-        return run_passage(case, fmus=fmus.value, timeout=timeout)
+        return run_case()
     with progress_bar(Console(stderr=True)) as report:
-        return run_passage(case, fmus=fmus.value, timeout=timeout, notify=_say, report=report)
+        return run_case(notify=_say, report=report)
 
 
 def _followed_cosim(system: Path, options: CosimOptions, *, quiet: bool) -> xr.Dataset:

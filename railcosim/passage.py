@@ -12,7 +12,7 @@ import orchestrator
 from build_fmus import Structure, default_directory, ensure_fmus
 from orchestrator import Master, Recorder
 
-from .coupled_system import connect, indicators, master_settings
+from .coupled_system import connect, located_events, master_settings, with_steps_for
 from .dataset import assemble, count
 from .errors import InputError, RunError
 from .input_tables import check_profiles
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from vehicle_fmu.speed import SpeedLaw
 
     from .scenario import Scenario
-    from .signals import Signal
+    from .signals import ContactSide, Signal
     from .watched_control import Progress
 
 FEWEST_POINTS = 2
@@ -44,6 +44,7 @@ def run_passage(
     scenario: Scenario,
     *,
     fmus: str = "python",
+    contact: ContactSide = "vehicle",
     timeout: float | None = None,
     directory: Path | None = None,
     notify: Callable[[str], None] | None = None,
@@ -57,6 +58,9 @@ def run_passage(
         What to run.
     fmus : str
         Which build of the FMUs runs: ``python``.
+    contact : {"vehicle", "track"}
+        Which of the two FMUs has the contacts. On the track's side, nothing is iterated unless
+        the scenario names the algorithm newton.
     timeout : float, optional
         Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
     directory : Path, optional
@@ -78,14 +82,15 @@ def run_passage(
     RunError
         Where the co-simulation cannot go on.
     """
+    scenario = with_steps_for(scenario, contact)
     law = speed_law(scenario.vehicle)
     check_profiles(scenario)
-    paths = build_for(scenario, directory=directory, notify=notify)
+    paths = build_for(scenario, contact=contact, directory=directory, notify=notify)
     provenance = _provenance(paths)
     try:
         with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
-            system = connect(scenario, paths, law, timeout=timeout)
-            recorder, outcome = _simulate(scenario, law, system, report)
+            system = connect(scenario, paths, law, contact=contact, timeout=timeout)
+            recorder, outcome = _simulate(scenario, law, system, contact, report)
     except orchestrator.InputError as error:
         raise InputError(str(error)) from error
     except orchestrator.RunError as error:
@@ -98,15 +103,16 @@ def run_passage(
     return assemble(
         scenario,
         times=recorder.time,
-        series=_series(scenario, recorder),
+        series=_series(scenario, recorder, contact),
         attempts=attempts(outcome),
-        attributes={"fmus": fmus, **provenance, **statistics(outcome)},
+        attributes={"fmus": fmus, "contact": contact, **provenance, **statistics(outcome)},
     )
 
 
 def build_for(
     scenario: Scenario,
     *,
+    contact: ContactSide = "vehicle",
     directory: Path | None = None,
     notify: Callable[[str], None] | None = None,
 ) -> FmuPaths:
@@ -126,7 +132,7 @@ def build_for(
     )
     directory = directory or default_directory()
     try:
-        return ensure_fmus(directory, structure, progress=notify)
+        return ensure_fmus(directory, structure, contact=contact, progress=notify)
     except OSError as error:
         raise RunError(
             f"the FMUs cannot be written to {directory}: {error.strerror or error}; make that "
@@ -138,35 +144,50 @@ def _simulate(
     scenario: Scenario,
     law: SpeedLaw,
     system: System,
+    contact: ContactSide,
     report: Callable[[Progress], None] | None,
 ) -> tuple[Recorder, Outcome]:
     """Run the master over the whole way."""
     stop_time = travel_time(law, scenario.distance)
-    settings = master_settings(scenario)
+    settings = master_settings(scenario, contact)
     control = settings.make_controller(stop_time)
     if report is not None:
         control = WatchedControl(control, stop_time=stop_time, report=report)
-    recorder = Recorder([path for signal in SIGNALS for path in _paths(scenario, signal)])
+    paths = [path for signal in SIGNALS for path in _paths(scenario, signal, contact)]
+    recorder = Recorder(paths + _origins(scenario, contact))
     master = Master(
         system,
         settings,
         controller=control,
-        events=indicators(scenario.vehicle.wheels),
+        events=located_events(scenario, contact),
         observers=[recorder],
     )
     return recorder, master.run(0.0, stop_time)
 
 
-def _paths(scenario: Scenario, signal: Signal) -> list[str]:
-    return [signal.path(k) for k in range(1, count(scenario)[signal.dim] + 1)]
+def _paths(scenario: Scenario, signal: Signal, contact: ContactSide) -> list[str]:
+    return [signal.path(k, contact) for k in range(1, count(scenario)[signal.dim] + 1)]
 
 
-def _series(scenario: Scenario, recorder: Recorder) -> dict[str, NDArray[np.float64]]:
+def _origins(scenario: Scenario, contact: ContactSide) -> list[str]:
+    """Name what wheel displacements count from, where that is not the unloaded rail."""
+    wheels = scenario.vehicle.wheels if contact == "track" else 0
+    return [f"track.wheel[{k}].static_displacement" for k in range(1, wheels + 1)]
+
+
+def _series(
+    scenario: Scenario, recorder: Recorder, contact: ContactSide
+) -> dict[str, NDArray[np.float64]]:
     """Gather the columns of every signal, shape (times, wheels or sleepers or gauges)."""
-    return {
-        signal.name: np.stack([recorder[path] for path in _paths(scenario, signal)], axis=1)
+    series = {
+        signal.name: np.stack(
+            [recorder[path] for path in _paths(scenario, signal, contact)], axis=1
+        )
         for signal in SIGNALS
     }
+    for wheel, path in enumerate(_origins(scenario, contact)):
+        series["wheel_displacement"][:, wheel] += recorder[path]
+    return series
 
 
 def _provenance(paths: FmuPaths) -> dict[str, str]:

@@ -6,8 +6,6 @@ from railcosim.coupled_system import (
     connect,
     indicators,
     master_settings,
-    track_values,
-    vehicle_values,
 )
 from railcosim.dataset import count
 from railcosim.master_section import Master
@@ -16,6 +14,7 @@ from railcosim.passage import build_for
 from railcosim.scenario import Scenario
 from railcosim.sections import Flat, Run, Track, Vehicle
 from railcosim.signals import SIGNALS
+from railcosim.start_values import track_values, vehicle_values
 from vehicle_fmu.speed import SpeedTable
 
 UNITS = {"m": "m", "N": "N", "m s-1": "m/s", "N m": "N.m", "1": None}

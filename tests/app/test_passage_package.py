@@ -87,6 +87,9 @@ def test_the_build_script_writes_the_package_too(tmp_path):
     done = subprocess.run(
         [sys.executable, script, "--output", tmp_path], capture_output=True, text=True, check=True
     )
-    names = ["Track.fmu", "Vehicle.fmu", "Passage.ssp"]
+    names = [
+        *("Track.fmu", "Vehicle.fmu", "Passage.ssp"),
+        *("TrackContact.fmu", "Masses.fmu", "PassageContactOnTrack.ssp"),
+    ]
     assert done.stdout.split() == [str(tmp_path / name) for name in names]
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(names)
