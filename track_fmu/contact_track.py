@@ -129,10 +129,25 @@ class ContactTrack:
         own.passed[0] = 0.0
         self._begin(np.concatenate((positions, displacements)))
 
-    def has_moved_before_its_first_step(self, positions: FloatArray) -> bool:
-        """Whether no step has been taken yet, and the wheels are not where they started."""
-        own, wheels = self._own, len(positions)
-        return own.passed[0] == 0.0 and not np.array_equal(own.history[0, :wheels], positions)
+    def doubts(self, step_size: float, positions: FloatArray) -> list[str]:
+        """What is doubtful about a first step of given start values, a sentence each."""
+        own = self._own
+        found: list[str] = []
+        if own.passed[0] > 0.0:
+            return found
+        if step_size > LONGEST_PART * (1.0 + 1e-9):
+            found.append(
+                f"steps of {step_size:.6g} s are too long for values that are known at their start "
+                f"only: use {LONGEST_PART:g} s or less"
+            )
+        if not np.array_equal(own.history[0, : len(positions)], positions):
+            found.append(
+                f"at the start of the first step wheel 1 is at {positions[0]:.9g} m, at the static "
+                f"start it was at {own.history[0, 0]:.9g} m: set linear_inputs = true in a host "
+                "that steps the vehicle first, or the start values of the positions in one that "
+                "connects nothing before the first step"
+            )
+        return found
 
     def step(
         self,

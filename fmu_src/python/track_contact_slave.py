@@ -86,13 +86,9 @@ class TrackContactSlave(ModelSlave):
         """One step; the track does not depend on time itself."""
         del time
         positions = inputs["position"]
-        if not linear and model.has_moved_before_its_first_step(positions):
-            self.log(
-                f"at the start of the first step wheel 1 is at {positions[0]:.9g} m, not where it "
-                "was during initialisation: set linear_inputs = true in a host that steps the "
-                "vehicle first, or the start value of the position in one that connects later",
-                Fmi2Status.warning,
-            )
+        if not linear:
+            for doubt in model.doubts(step_size, positions):
+                self.log(doubt, Fmi2Status.warning)
         model.step(step_size, positions, inputs["displacement"], linear=linear)
 
     def read_model(self, model: ContactTrack, group: str) -> Sequence[float]:

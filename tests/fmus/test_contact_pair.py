@@ -100,6 +100,18 @@ def test_a_host_that_steps_the_vehicle_first_is_told_what_to_set(open_fmu, pair)
     assert told.messages == []
 
 
+def test_a_host_with_long_steps_is_told(open_fmu, pair):
+    track = small_track(open_fmu, pair)
+    track.fmu.doStep(0.0, 2e-4)
+    assert track.messages == []
+    other = small_track(open_fmu, pair)
+    other.fmu.doStep(0.0, 1e-3)
+    other.fmu.doStep(1e-3, 1e-3)
+    assert len(other.messages) == 1  # once is enough
+    assert "steps of 0.001 s are too long" in other.messages[0]
+    assert "use 0.0002 s or less" in other.messages[0]
+
+
 # state
 
 
