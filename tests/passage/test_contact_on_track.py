@@ -72,6 +72,15 @@ def test_contact_is_lost_and_found_as_in_the_default_run(passages):
 
 
 @pytest.mark.slow
+def test_a_fresh_flat_strikes_hard_and_is_not_mistaken_for_divergence(passages):
+    """The force rises by four static loads and rings for long."""
+    ours = summarise(on_track("flat.shape=chord"))
+    theirs = passages.summary("flat.shape=chord")
+    assert ours.peak_contact_force == pytest.approx(theirs.peak_contact_force, rel=5e-3)
+    assert ours.loss_of_contact_time == pytest.approx(theirs.loss_of_contact_time, abs=3e-4)
+
+
+@pytest.mark.slow
 def test_the_whole_passage_is_that_of_the_default_run(passages):
     ours, theirs = summarise(on_track()), passages.summary()
     assert ours.peak_contact_force == pytest.approx(theirs.peak_contact_force, rel=3e-3)
