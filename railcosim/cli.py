@@ -3,7 +3,7 @@
 import json
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict
 from enum import StrEnum
@@ -43,6 +43,7 @@ from .progress import progress_bar
 from .repetition_report import repetition_numbers, repetition_table
 from .scenario import Scenario
 from .scenario_file import read_scenario
+from .signals import ContactSide
 from .summary import summarise
 from .summary_table import summary_table
 from .verdict_table import verdict_table
@@ -72,8 +73,19 @@ REPLAY = Annotated[
     ),
 ]
 
-PACKAGE_NAME = "Passage.ssp"
-"""File of the paper's case as a system of FMUs."""
+
+class ContactName(StrEnum):
+    """Which of the two FMUs has the contacts."""
+
+    VEHICLE = "vehicle"
+    TRACK = "track"
+
+
+PACKAGE_NAMES: Mapping[ContactSide, str] = {
+    "vehicle": "Passage.ssp",
+    "track": "PassageContactOnTrack.ssp",
+}
+"""Files of the paper's case as a system of FMUs."""
 
 
 class AlgorithmName(StrEnum):
@@ -134,6 +146,9 @@ def run(
         typer.Option("--set", metavar="KEY=VALUE", help="Replace a key, as in flat.depth=1e-3."),
     ] = None,
     fmus: Annotated[FmuKind, typer.Option(help="Which build of the FMUs runs.")] = FmuKind.PYTHON,
+    contact: Annotated[
+        ContactName, typer.Option(help="Which FMU has the contacts.")
+    ] = ContactName.VEHICLE,
     isolate: ISOLATE = False,
     timeout: TIMEOUT = None,
     output: Annotated[
@@ -156,10 +171,17 @@ def run(
         if plot is not None:
             check_writable(plot, option="--plot", suffixes=FIGURE_SUFFIXES)
         limit = _time_limit(timeout, isolate=isolate)
-        for note in notes(case):
+        for note in notes(case, contact.value):
             _say(f"note: {note}")
         with _keeping(output):
-            passage = _followed_run(case, fmus, limit, _replay_file(replay, output), quiet=quiet)
+            passage = _followed_run(
+                case,
+                fmus,
+                contact,
+                timeout=limit,
+                replay=_replay_file(replay, output),
+                quiet=quiet,
+            )
         if output is not None:
             write_dataset(passage, output)
         if plot is not None:
@@ -259,14 +281,15 @@ def build(
         Path | None, typer.Option("--output", metavar="FOLDER", help="Where to; dist/ without.")
     ] = None,
 ) -> None:
-    """Build the FMUs of the paper's case and its system where they are missing or stale."""
+    """Build the FMUs of the paper's case and its systems where they are missing or stale."""
     with _exit_codes():
         folder = directory or default_directory()
-        paths = build_for(Scenario(), directory=folder, notify=_say)
-        package = folder / PACKAGE_NAME
-        ensure_package(Scenario(), paths, package, notify=_say)
-        for path in (paths.track, paths.vehicle, package):
-            typer.echo(path)
+        for contact, name in PACKAGE_NAMES.items():
+            paths = build_for(Scenario(), contact=contact, directory=folder, notify=_say)
+            package = folder / name
+            ensure_package(Scenario(), paths, package, contact=contact, notify=_say)
+            for path in (paths.track, paths.vehicle, package):
+                typer.echo(path)
 
 
 @app.command()
@@ -335,14 +358,27 @@ def _time_limit(timeout: float | None, *, isolate: bool) -> float | None:
 
 
 def _followed_run(
-    case: Scenario, fmus: FmuKind, timeout: float | None, replay: Path | None, *, quiet: bool
+    case: Scenario,
+    fmus: FmuKind,
+    contact: ContactName,
+    *,
+    timeout: float | None,
+    replay: Path | None,
+    quiet: bool,
 ) -> xr.Dataset:
     """Run with a progress bar on stderr, or without a word."""
-    run = partial(run_passage, case, fmus=fmus.value, timeout=timeout, replay=replay)
+    run_case = partial(
+        run_passage,
+        case,
+        fmus=fmus.value,
+        contact=contact.value,
+        timeout=timeout,
+        replay=replay,
+    )
     if quiet:
-        return run()
+        return run_case()
     with progress_bar(Console(stderr=True)) as report:
-        return run(notify=_say, report=report)
+        return run_case(notify=_say, report=report)
 
 
 def _followed_cosim(

@@ -192,10 +192,13 @@ def test_check_of_no_fmu_ends_with_2(call):
     assert "there is no such FMU file" in one_sentence(result)
 
 
-def test_build_writes_fmus_and_their_system_and_leaves_them_alone(call, tmp_path):
+def test_build_writes_fmus_and_their_systems_and_leaves_them_alone(call, tmp_path):
     result = call("build", "--output", tmp_path)
     assert result.exit_code == 0
-    names = ["Track.fmu", "Vehicle.fmu", "Passage.ssp"]
+    names = [
+        *("Track.fmu", "Vehicle.fmu", "Passage.ssp"),
+        *("TrackContact.fmu", "Masses.fmu", "PassageContactOnTrack.ssp"),
+    ]
     assert result.stdout.split() == [str(tmp_path / name) for name in names]
     assert [line.split()[-1] for line in result.stderr.splitlines()] == names
     again = call("build", "--output", tmp_path)

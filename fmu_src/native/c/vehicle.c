@@ -11,8 +11,6 @@
 static const rc_group_kind KINDS[] = {
     [SPEED] = {"speed", RC_REAL, RC_PARAMETER, RC_ONE},
     [SPEED_TABLE] = {"speed_table", RC_TEXT, RC_PARAMETER, RC_ONE},
-    [RAIL_IRREGULARITY] = {"rail_irregularity", RC_TEXT, RC_PARAMETER, RC_ONE},
-    [FLAT_SHAPE] = {"flat.shape", RC_TEXT, RC_PARAMETER, RC_ONE},
     [WHEEL_MASS] = {"wheel_mass", RC_REAL, RC_PARAMETER, RC_ONE},
     [STATIC_WHEEL_LOAD] = {"static_wheel_load", RC_REAL, RC_PARAMETER, RC_ONE},
     [AXLE_BASE] = {"axle_base", RC_REAL, RC_PARAMETER, RC_ONE},
@@ -20,6 +18,8 @@ static const rc_group_kind KINDS[] = {
     [HERTZ_COEFFICIENT] = {"hertz_coefficient", RC_REAL, RC_PARAMETER, RC_ONE},
     [INITIAL_POSITION] = {"initial_position", RC_REAL, RC_PARAMETER, RC_ONE},
     [SUBSTEP] = {"substep", RC_REAL, RC_PARAMETER, RC_ONE},
+    [RAIL_IRREGULARITY] = {"rail_irregularity", RC_TEXT, RC_PARAMETER, RC_ONE},
+    [FLAT_SHAPE] = {"flat.shape", RC_TEXT, RC_PARAMETER, RC_ONE},
     [FLAT_LENGTH] = {"flat.length", RC_REAL, RC_PARAMETER, RC_ONE},
     [FLAT_DEPTH] = {"flat.depth", RC_REAL, RC_PARAMETER, RC_ONE},
     [FLAT_WHEEL] = {"flat.wheel", RC_INTEGER, RC_PARAMETER, RC_ONE},
