@@ -13,7 +13,8 @@ static void tell(const rc_fmu *fmu, rc_status status, const char *category, cons
     }
     *to = '\0';
     const fmi2CallbackLogger logger = (fmi2CallbackLogger)fmu->logger;
-    logger(fmu->environment, fmu->name, rc_fmi2_status(status), category, escaped);
+    const char *name = fmu->name == NULL ? "" : fmu->name; /* it may be what is missing */
+    logger(fmu->environment, name, rc_fmi2_status(status), category, escaped);
 }
 
 const char *fmi2GetTypesPlatform(void)

@@ -69,6 +69,22 @@ rc_status rc_enter_initialisation(rc_model *model, double start_time)
     return RC_OK;
 }
 
+/* Whether the state gives outputs that are numbers; all of them are worked out. */
+static int has_finite_outputs(rc_model *model)
+{
+    for (size_t g = 0; g < model->kind->kind_count; ++g) {
+        if (model->groups[g].causality != RC_OUTPUT)
+            continue;
+        double *outputs = model->outputs + model->slots[g];
+        model->kind->read(model, g, outputs);
+        model->known[g] = 1;
+        for (uint32_t i = 0; i < model->groups[g].count; ++i)
+            if (!isfinite(outputs[i]))
+                return 0;
+    }
+    return 1;
+}
+
 /* Works the initial state out if the inputs have changed since the last time. */
 static rc_status ensure_started(rc_model *model)
 {
@@ -76,9 +92,15 @@ static rc_status ensure_started(rc_model *model)
         return RC_OK;
     memset(model->known, 0, model->kind->kind_count);
     const rc_status status = model->kind->start(model);
-    if (status == RC_OK)
-        model->head->started = 1;
-    return status;
+    if (status != RC_OK)
+        return status;
+    if (!has_finite_outputs(model)) {
+        memset(model->known, 0, model->kind->kind_count);
+        return rc_fail(model, RC_ERROR, "no finite initial state follows from these parameters and "
+                                        "inputs; look for one that is out of all proportion");
+    }
+    model->head->started = 1;
+    return RC_OK;
 }
 
 rc_status rc_exit_initialisation(rc_model *model)
