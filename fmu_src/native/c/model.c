@@ -129,9 +129,9 @@ rc_status rc_step(rc_model *model, double time, double step, rc_input_shape shap
         return rc_fail(model, RC_DISCARD,
                        "a step from %.17g s does not continue from %.17g s; restore the state of "
                        "that time first", time, model->head->time);
-    if (!(isfinite(step) && step > 0.0))
+    if (!(isfinite(time + step) && step > 0.0))
         return rc_fail(model, RC_DISCARD, "the step size is %g s; it must be a finite number "
-                                          "above zero", step);
+                                          "above zero, and so must be its end", step);
     model->stepped = 0; /* what derivatives need may be overwritten even if the step is refused */
     const rc_status status = model->kind->step(
         model, step, shape == RC_AS_PARAMETER ? model->linear : shape == RC_STRAIGHT);

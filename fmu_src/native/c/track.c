@@ -212,9 +212,9 @@ static rc_status step_track(rc_model *model, double step, int linear)
     track->linear = linear;
     if (!rc_advance_track(track, model->dynamic, step, rc_values(model, POSITION),
                           rc_values(model, CONTACT_FORCE)))
-        return rc_fail(model, RC_DISCARD, "track: the state-dependent forces did not converge, or "
-                                          "the rates overflow, over a step of %.3g s; use another "
-                                          "one", step);
+        return rc_fail(model, RC_DISCARD, "track: the state-dependent forces did not converge over "
+                                          "a step of %.3g s; use a shorter step, or a longer one "
+                                          "if it is next to nothing", step);
     track->last_step = step;
     return RC_OK;
 }
