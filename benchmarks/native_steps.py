@@ -36,9 +36,7 @@ def measure(folder: Path, program: Path, bays: int) -> dict[str, str]:
     resource.write_bytes(
         track_resource(parameters, wheels=2, gauges=3, mode_pairs=MODES_PER_BAY * bays)
     )
-    answer = subprocess.run(  # noqa: S603 - the program compiled here
-        [program, resource], check=True, capture_output=True, text=True
-    )
+    answer = subprocess.run([program, resource], check=True, capture_output=True, text=True)
     return dict(line.split() for line in answer.stdout.splitlines())
 
 
