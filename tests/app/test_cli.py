@@ -37,7 +37,7 @@ def runs(monkeypatch, make_passage):
             distance = DISTANCE if complete else DISTANCE[:2]
             return make_passage(distance, scenario, complete=complete, unreliable=unreliable)
 
-        monkeypatch.setattr(cli, "run_passage", run_passage)
+        monkeypatch.setattr("railcosim.commands.run.run_passage", run_passage)
         return seen
 
     return runs
@@ -176,7 +176,7 @@ def test_a_wrong_result_is_written_and_ends_with_1(call, runs, tmp_path):
 @pytest.mark.parametrize(("holds", "code"), [(True, 0), (None, 0), (False, 1)])
 def test_check_prints_verdicts_and_ends_with_1_if_one_fails(call, monkeypatch, holds, code):
     verdict = Verdict(claim="states are freed", holds=holds, detail="10 bytes per state")
-    monkeypatch.setattr(cli, "check_fmu", lambda *_, **__: [verdict])
+    monkeypatch.setattr("railcosim.commands.check.check_fmu", lambda *_, **__: [verdict])
     result = call("check", "some.fmu")
     assert result.exit_code == code
     assert "10 bytes per state" in result.stdout
