@@ -1,4 +1,5 @@
 import json
+import signal
 import subprocess
 import sys
 
@@ -229,13 +230,24 @@ def test_build_says_where_it_cannot_write(call, tmp_path):
         (["run", "--set", "master.min_step=1"], "master.min_step is 1 s"),
     ],
 )
-def test_wrong_command_lines_end_with_2_and_one_line(arguments, message):
-    command = [sys.executable, "-m", "railcosim", *arguments]
+def test_wrong_command_lines_end_with_2_and_one_line(arguments, message, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["railcosim", *arguments])
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
+    with pytest.raises(SystemExit) as end:
+        cli.main()
+    out, err = capsys.readouterr()
+    assert end.value.code == 2
+    assert message in err
+    assert err.count("\n") == 1
+    assert out == ""
+
+
+def test_a_wrong_command_line_of_the_module_ends_the_same_way():
+    command = [sys.executable, "-m", "railcosim", "--nosuch"]
     answer = subprocess.run(command, check=False, capture_output=True, text=True)
-    assert answer.returncode == 2
-    assert message in answer.stderr
+    assert (answer.returncode, answer.stdout) == (2, "")
+    assert "--nosuch" in answer.stderr
     assert answer.stderr.count("\n") == 1
-    assert answer.stdout == ""
 
 
 def test_a_passage_that_fails_keeps_its_result_and_can_be_replayed(tmp_path):
