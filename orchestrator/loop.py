@@ -26,6 +26,7 @@ from .quasi_newton import largest
 from .settings import MasterSettings
 from .step_control import StepController
 from .step_log import StepLog
+from .value_watch import ValueWatch
 
 nan = float("nan")
 
@@ -66,6 +67,8 @@ class Loop:
         Those whose states are saved at every accepted point.
     log : StepLog
         One row per attempt so far.
+    watch : ValueWatch
+        Looks at the accepted values.
     """
 
     def __init__(
@@ -117,6 +120,9 @@ class Loop:
                 tolerance=settings.tolerance if controller.uses_error else None,
             )
         self.log = StepLog()
+        controlled = settings.tolerance if controller.uses_error else None
+        iterated = settings.coupling_tolerance if coupling.iterates else None
+        self.watch = ValueWatch(exchange, controlled=controlled, resolved=controlled or iterated)
 
     def run(self, interrupt: Interrupt) -> StopReason:
         """Step until the stop time, or until something ends the run early.
@@ -251,6 +257,7 @@ class Loop:
         self._clock.advance(step)
         outputs = self._exchange.outputs
         values = outputs[self._exchange.value_places]
+        self.watch.accept(values, self._history.last)
         wanted = decision.next_step
         finding = candidate.finding
         if self._ledger is not None:
