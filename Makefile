@@ -27,10 +27,10 @@ run: $(INSTALLED)
 	@echo "written: out/passage.nc and out/passage.png"
 
 test: lint
-	$(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2 --dist loadgroup
 
 check: lint
-	$(BIN)/python -m pytest -n 2 -m "slow or not slow"
+	$(BIN)/python -m pytest -n 2 --dist loadgroup -m "slow or not slow"
 
 lint: $(INSTALLED)
 	$(BIN)/ruff format --check

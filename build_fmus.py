@@ -1,8 +1,8 @@
 """Builds the FMUs of the track and of the vehicle.
 
 ``python build_fmus.py`` writes them to ``dist/``; what is there and up to date, byte for byte what
-the present sources give, is left alone. The FMUs of the default structure come with
-``Passage.ssp``, their system in the paper's case.
+the present sources give, is left alone. There are two pairs: the contacts are those of the vehicle
+or of the track. The FMUs of the default structure come with their systems in the paper's case.
 """
 
 from __future__ import annotations
@@ -18,6 +18,11 @@ import platformdirs
 
 from fmu_src.archive import holds, write_archive
 from fmu_src.python.packaging import RECIPES, fmu_contents
+
+PAIRS = {"vehicle": ("track", "vehicle"), "track": ("track_contact", "masses")}
+"""Kinds of the FMUs of track and vehicle by the side that has the contacts."""
+
+TRACKS = {track for track, _ in PAIRS.values()}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,7 +56,7 @@ class Structure:
 
     def of(self, kind: str) -> dict[str, int]:
         """The part that matters to the FMU of a kind."""
-        return asdict(self) if kind == "track" else {"wheels": self.wheels}
+        return asdict(self) if kind in TRACKS else {"wheels": self.wheels}
 
     def file_name(self, kind: str) -> str:
         """File name of the FMU of a kind; the default structure has the plain name."""
@@ -87,6 +92,7 @@ def ensure_fmus(
     directory: Path,
     structure: Structure | None = None,
     *,
+    contact: str = "vehicle",
     progress: Callable[[str], None] | None = None,
 ) -> FmuPaths:
     """Build the FMUs that are missing or stale.
@@ -97,6 +103,8 @@ def ensure_fmus(
         Where they are kept.
     structure : Structure, optional
         What is fixed at build time; the paper's track and bogie without.
+    contact : str
+        A key of `PAIRS`: which side has the contacts.
     progress : callable
         Told what is being built.
 
@@ -106,14 +114,17 @@ def ensure_fmus(
         If an archive cannot be written.
     """
     structure = structure or Structure()
-    paths = {kind: directory / structure.file_name(kind) for kind in RECIPES}
-    for kind, path in paths.items():
+    paths = []
+    for kind in PAIRS[contact]:
+        path = directory / structure.file_name(kind)
+        paths.append(path)
         contents = fmu_contents(kind, structure.of(kind))
         if not holds(path, contents):
             if progress is not None:
                 progress(f"building {path.name}")
             write_archive(path, contents)
-    return FmuPaths(**paths)
+    track, vehicle = paths
+    return FmuPaths(track=track, vehicle=vehicle)
 
 
 def main() -> int:
@@ -129,17 +140,23 @@ def main() -> int:
         structure = Structure(**arguments)
         if structure == Structure():
             return _build_passage(directory)
-        paths = ensure_fmus(
-            directory, structure, progress=lambda text: print(text, file=sys.stderr)
-        )
+        pairs = [
+            ensure_fmus(
+                directory,
+                structure,
+                contact=contact,
+                progress=lambda text: print(text, file=sys.stderr),
+            )
+            for contact in PAIRS
+        ]
     except ValueError as error:
         print(f"build_fmus: {error}", file=sys.stderr)
         return 2
     except OSError as error:
         print(f"build_fmus: cannot write to {directory}: {error.strerror}", file=sys.stderr)
         return 1
-    for field in fields(paths):
-        print(getattr(paths, field.name))
+    for paths in pairs:
+        print(paths.track, paths.vehicle, sep="\n")
     return 0
 
 

@@ -17,6 +17,7 @@ from rich.table import Table
 
 from railcosim.passage import run_passage
 from railcosim.scenario_file import read_scenario
+from railcosim.signals import ContactSide
 from railcosim.summary import Summary, summarise
 
 REFERENCE = ("master.step=2e-5",)
@@ -29,11 +30,16 @@ CASES = {
     "newton, 50 us": ("master.step=5e-5",),
     "gauss_seidel, 25 us": ("master.step=2.5e-5", "master.algorithm=gauss_seidel"),
 }
+ON_TRACK = {
+    "contact on the track, 200 us": ("master.step=2e-4",),
+    "contact on the track, 100 us (default)": (),
+    "contact on the track, 50 us": ("master.step=5e-5",),
+}
 
 
-def run(settings: tuple[str, ...]) -> Summary:
+def run(settings: tuple[str, ...], contact: ContactSide = "vehicle") -> Summary:
     """One passage."""
-    return summarise(run_passage(read_scenario(None, settings)))
+    return summarise(run_passage(read_scenario(None, settings), contact=contact))
 
 
 def main() -> None:
@@ -44,8 +50,12 @@ def main() -> None:
                     "peak error %"):  # fmt: skip
         table.add_column(heading, justify="right")
     reference = run(REFERENCE)
-    for name, settings in {**CASES, "newton, 20 us (reference)": REFERENCE}.items():
-        summary = reference if settings is REFERENCE else run(settings)
+    summaries = {
+        **{name: run(settings) for name, settings in CASES.items()},
+        **{name: run(settings, "track") for name, settings in ON_TRACK.items()},
+        "newton, 20 us (reference)": reference,
+    }
+    for name, summary in summaries.items():
         peak, exact = summary.peak_contact_force, reference.peak_contact_force
         assert peak is not None
         assert exact is not None

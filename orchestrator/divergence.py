@@ -87,7 +87,8 @@ class DivergenceMonitor:
         del self._streak[:-lasting_windows]
         self._streak.append(miss)
         smallest = min(self._streak[: 1 - fewest_windows], default=miss)
-        if miss > diverging * smallest:
+        # not in one window only: an impact is over when the next one has passed
+        if min(self._streak[-2:]) > diverging * smallest:
             raise DivergenceError(
                 f"The explicit algorithm diverges: {name} missed the value expected of it by "
                 f"{miss:.3g} times its nominal value {self._nominal[worst]:.3g} shortly before "

@@ -75,8 +75,9 @@ class ExplicitCoupling:
             for block in blocks
             if block.unknowns.size
         ]
-        self._time = 0.0
-        self._prescribed = np.empty(0)
+        self._time = self._size = 0.0
+        self._expected = self._last = np.empty(0)
+        self._before: tuple[Vector, float] | None = None
 
     @property
     def unreliable(self) -> Sequence[str]:
@@ -86,7 +87,8 @@ class ExplicitCoupling:
     def attempt(self, time: float, step_size: float, last: Vector, predicted: Vector) -> Attempt:
         """Step everything once."""
         values = predicted if self._extrapolates else last
-        self._time, self._prescribed = time, values
+        self._time, self._size, self._last = time, step_size, last
+        self._expected = predicted if self._extrapolates else self._continued(last, step_size)
         for block in self._blocks:
             failure = block.step(values[block.unknowns], time, step_size)
             if failure is not None:
@@ -94,9 +96,18 @@ class ExplicitCoupling:
         return stepped_once
 
     def commit(self) -> None:
-        """Compare what was prescribed in the last attempt with what came out."""
+        """Compare what was expected in the last attempt with what came out."""
         for block, monitor in self._loops:
-            monitor.accept(self._prescribed[block.unknowns], block.computed(), self._time)
+            monitor.accept(self._expected[block.unknowns], block.computed(), self._time)
+        if not self._extrapolates:
+            self._before = self._last.copy(), self._size
+
+    def _continued(self, last: Vector, step_size: float) -> Vector:
+        """Where a straight line leads: held values are missed by every slope, resolved or not."""
+        if self._before is None:
+            return last
+        values, size = self._before
+        return last + (step_size / size) * (last - values)
 
     def known(self, _step_size: float) -> Sequence[Matrix | None]:
         """Nothing is ever learned."""
@@ -107,5 +118,6 @@ class ExplicitCoupling:
 
     def forget(self) -> None:
         """Expect nothing of the next step."""
+        self._before = None
         for _, monitor in self._loops:
             monitor.restart()

@@ -1,55 +1,64 @@
-"""A scenario as a co-simulation: start values of the FMUs, connections, settings of the master."""
+"""A scenario as a co-simulation: the FMUs, their connections, the settings of the master."""
 
 from __future__ import annotations
 
-from dataclasses import fields
-from typing import TYPE_CHECKING, TypeAlias, cast
+from dataclasses import replace
+from typing import TYPE_CHECKING, cast
 
 from orchestrator import Connection, FmuSource, MasterSettings, System
 
-from .motion import initial_speed
-from .sections import Track
+from .start_values import track_values, vehicle_values
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
     from typing import Literal
 
     from build_fmus import FmuPaths
     from vehicle_fmu.speed import SpeedLaw
 
     from .scenario import Scenario
+    from .signals import ContactSide
 
-Value: TypeAlias = float | int | bool | str
-"""What a parameter of an FMU may be."""
-
-BUILT_IN = ("bays", "elements_per_bay")
-"""Keys of the track that are fixed when its FMU is built."""
+EXPLICIT_STEP = 1e-4
+"""Step with contact on the track side, where the scenario leaves algorithm and step open [s]."""
 
 SMALLEST_DIVISION = 1e-4
 """How far a failing step of fixed size may be divided, where the scenario does not say."""
 
 
-def connect(
-    scenario: Scenario, paths: FmuPaths, law: SpeedLaw, *, timeout: float | None = None
-) -> System:
-    """Join track and vehicle; see `fmu_sources`.
+EXCHANGED: Mapping[ContactSide, tuple[tuple[str, str, str], ...]] = {
+    "vehicle": (
+        ("vehicle", "track", "position"),
+        ("vehicle", "track", "contact_force"),
+        ("track", "vehicle", "rail_displacement"),
+    ),
+    "track": (
+        ("vehicle", "track", "position"),
+        ("vehicle", "track", "displacement"),
+        ("track", "vehicle", "contact_force"),
+    ),
+}
+"""From where to where which quantity of every wheel goes."""
+
+
+def join(sources: Iterable[FmuSource], wheels: int, contact: ContactSide = "vehicle") -> System:
+    """Open the FMUs and connect them over so many wheels.
 
     Raises
     ------
     orchestrator.errors.InputError
         For an FMU that is missing, corrupt or another one.
     """
-    sources = fmu_sources(scenario, paths, law, timeout=timeout)
-    return join(sources, scenario.vehicle.wheels)
-
-
-def join(sources: Iterable[FmuSource], wheels: int) -> System:
-    """Open the FMUs and connect them over so many wheels."""
-    return System([source.open() for source in sources], connections(wheels))
+    return System([source.open() for source in sources], connections(wheels, contact))
 
 
 def fmu_sources(
-    scenario: Scenario, paths: FmuPaths, law: SpeedLaw, *, timeout: float | None = None
+    scenario: Scenario,
+    paths: FmuPaths,
+    law: SpeedLaw,
+    *,
+    contact: ContactSide = "vehicle",
+    timeout: float | None = None,
 ) -> tuple[FmuSource, FmuSource]:
     """Name the FMUs and their start values.
 
@@ -58,9 +67,11 @@ def fmu_sources(
     scenario : Scenario
         Gives the start values.
     paths : FmuPaths
-        FMUs of the scenario's size.
+        FMUs of the scenario's size and of this pair.
     law : SpeedLaw
         Speed of the vehicle.
+    contact : {"vehicle", "track"}
+        Which of the FMUs has the contacts.
     timeout : float, optional
         Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
 
@@ -73,87 +84,90 @@ def fmu_sources(
         FmuSource(
             path=paths.vehicle,
             name="vehicle",
-            start_values=vehicle_values(scenario, law),
+            start_values=vehicle_values(scenario, law, contact),
             timeout=timeout,
         ),
         FmuSource(
             path=paths.track,
             name="track",
-            start_values=track_values(scenario, law),
+            start_values=track_values(scenario, law, contact),
             timeout=timeout,
         ),
     )
 
 
-def connections(wheels: int) -> list[Connection]:
-    """Return positions and forces to the track, and rail displacements back."""
+def connect(
+    scenario: Scenario,
+    paths: FmuPaths,
+    law: SpeedLaw,
+    *,
+    contact: ContactSide = "vehicle",
+    timeout: float | None = None,
+) -> System:
+    """Join track and vehicle; see `fmu_sources` and `join`."""
+    sources = fmu_sources(scenario, paths, law, contact=contact, timeout=timeout)
+    return join(sources, scenario.vehicle.wheels, contact)
+
+
+def connections(wheels: int, contact: ContactSide = "vehicle") -> list[Connection]:
+    """Return positions and forces to the track, and rail displacements back.
+
+    With contact on the track side, positions and wheel displacements, and forces back.
+    """
     return [
         Connection(
             source=f"{source}.wheel[{k}].{name}",
             target=f"{target}.wheel[{k}].{name}",
         )
         for k in range(1, wheels + 1)
-        for source, target, name in (
-            ("vehicle", "track", "position"),
-            ("vehicle", "track", "contact_force"),
-            ("track", "vehicle", "rail_displacement"),
-        )
+        for source, target, name in EXCHANGED[contact]
     ]
 
 
-def indicators(wheels: int) -> list[str]:
+def indicators(wheels: int, contact: ContactSide = "vehicle") -> list[str]:
     """Name the signed gaps, whose changes of sign are switches of contact."""
-    return [f"vehicle.wheel[{k}].gap" for k in range(1, wheels + 1)]
+    return [f"{contact}.wheel[{k}].gap" for k in range(1, wheels + 1)]
 
 
-def track_values(scenario: Scenario, law: SpeedLaw) -> dict[str, Value]:
-    """Return the parameters of the track FMU."""
-    own = {
-        item.name: getattr(scenario.track, item.name)
-        for item in fields(Track)
-        if item.name not in BUILT_IN
-    }
-    own["mode_pairs"] = scenario.track.retained_pairs
-    gauges = {
-        f"gauge[{k}].position": position
-        for k, position in enumerate(scenario.gauge_positions, start=1)
-    }
-    return {**own, **gauges, "initial_speed": initial_speed(law)}
+def located_events(scenario: Scenario, contact: ContactSide) -> list[str]:
+    """Name the indicators on whose switches the master lands.
+
+    A track that has the contacts finds their switches within its steps: an explicit run, which
+    repeats no step, leaves them to it.
+    """
+    if contact == "track" and scenario.master.is_explicit:
+        return []
+    return indicators(scenario.vehicle.wheels, contact)
 
 
-def vehicle_values(scenario: Scenario, law: SpeedLaw) -> dict[str, Value]:
-    """Return the parameters of the vehicle FMU."""
-    vehicle, flat = scenario.vehicle, scenario.flat
-    return {
-        "speed": initial_speed(law),
-        "speed_table": vehicle.speed_table,
-        "initial_position": scenario.start_position,
-        "wheel_mass": vehicle.wheel_mass,
-        "static_wheel_load": vehicle.static_wheel_load,
-        "axle_base": vehicle.axle_base,
-        "wheel_radius": vehicle.wheel_radius,
-        "hertz_coefficient": vehicle.hertz_coefficient,
-        "rail_irregularity": vehicle.rail_irregularity,
-        "flat.shape": flat.shape,
-        "flat.length": flat.length,
-        "flat.depth": flat.depth,
-        "flat.wheel": flat.wheel,
-        "flat.position": scenario.flat_position,
-        "flat.periodic": flat.periodic,
-        "flat.rolled": flat.rolled,
-    }
+def with_steps_for(scenario: Scenario, contact: ContactSide) -> Scenario:
+    """Choose the algorithm that a scenario leaves open, and with contact on the track the step."""
+    master = scenario.master
+    if contact == "vehicle" or master.algorithm is not None:
+        return scenario
+    step = master.step or EXPLICIT_STEP
+    return replace(
+        scenario,
+        master=replace(master, algorithm="jacobi", step=step, initial_step=None, max_step=None),
+    )
 
 
-def master_settings(scenario: Scenario) -> MasterSettings:
-    """Return the settings of the master: a fixed step if the scenario has one, or error control."""
+def master_settings(scenario: Scenario, contact: ContactSide = "vehicle") -> MasterSettings:
+    """Return the settings of the master: a fixed step if the scenario has one, or error control.
+
+    With contact on the track side an explicit run neither repeats steps nor extrapolates: the
+    FMUs continue their inputs themselves.
+    """
     keys = scenario.master
-    algorithm = cast("Literal['newton', 'gauss_seidel', 'jacobi']", keys.algorithm)
+    algorithm = cast("Literal['newton', 'gauss_seidel', 'jacobi']", keys.algorithm or "newton")
     if keys.step is not None:
+        divides = contact == "vehicle" or not keys.is_explicit
         return MasterSettings(
             algorithm=algorithm,
             tolerance=None,
             fixed_step=keys.step,
-            min_step=keys.min_step or SMALLEST_DIVISION * keys.step,
+            min_step=keys.min_step or (SMALLEST_DIVISION * keys.step if divides else None),
+            extrapolate=divides,
             coupling_tolerance=keys.coupling_tolerance,
             max_iterations=keys.max_iterations,
             max_rejections=keys.max_rejections,

@@ -19,8 +19,9 @@ class Master:
 
     Attributes
     ----------
-    algorithm : str
+    algorithm : str, optional
         ``newton`` iterates every step to convergence; ``gauss_seidel`` and ``jacobi`` do not.
+        Without, newton with contact on the vehicle's side and jacobi with contact on the track's.
     tolerance : float
         Allowed difference of prediction and result of a step, relative to nominal values.
     coupling_tolerance : float
@@ -35,7 +36,7 @@ class Master:
         Rejected attempts in a row that end the run.
     """
 
-    algorithm: Annotated[str, Choice(("newton", "gauss_seidel", "jacobi"))] = "newton"
+    algorithm: Annotated[str | None, Choice(("newton", "gauss_seidel", "jacobi"))] = None
     tolerance: Annotated[float, Number(above=0.0)] = 2e-3
     coupling_tolerance: Annotated[float, Number(above=0.0)] = 1e-6
     step: Annotated[float | None, Number(unit="s", above=0.0, at_most=1e-2)] = None
@@ -52,10 +53,11 @@ class Master:
                 f"master.step = {self.step:g} s leaves master.initial_step and master.max_step no "
                 "meaning: leave either it or them out"
             )
-        if self.algorithm != "newton" and self.step is None:
+        if self.is_explicit and self.step is None:
             raise InputError(
                 f"master.algorithm is {self.algorithm!r}, which takes steps of one size only: give "
-                "master.step, 2.5e-5 s or less, or use newton"
+                "master.step, 2.5e-5 s or less (1e-4 s or less with contact on the track side), or "
+                "use newton"
             )
         names = ("min_step", "initial_step", "step", "max_step")
         sizes = [(n, value) for n in names if (value := getattr(self, n)) is not None]
@@ -65,6 +67,11 @@ class Master:
                     f"master.{small} is {lower:g} s but must be at most master.{large}, which is "
                     f"{upper:g} s: lower the one or raise the other"
                 )
+
+    @property
+    def is_explicit(self) -> bool:
+        """Whether steps are taken once and for all."""
+        return self.algorithm in {"gauss_seidel", "jacobi"}
 
     @property
     def largest_step(self) -> float:

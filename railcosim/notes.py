@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .master_section import DEFAULT_MAX_STEP
+from .master_section import DEFAULT_MAX_STEP, Master
 from .sections import Flat
 
 if TYPE_CHECKING:
     from .scenario import Scenario
+    from .signals import ContactSide
 
 
-def notes(scenario: Scenario) -> list[str]:
+def notes(scenario: Scenario, contact: ContactSide = "vehicle") -> list[str]:
     """Say in a sentence each what has no effect and what costs accuracy."""
     found = []
     flat, master = scenario.flat, scenario.master
@@ -30,4 +31,16 @@ def notes(scenario: Scenario) -> list[str]:
             f"steps up to {step:g} s do not resolve the vibration of the rail: expect errors above "
             f"1 % unless they are at most {DEFAULT_MAX_STEP:g} s"
         )
+    if contact == "track" and master.algorithm is None:
+        defaults = Master()
+        unused = [
+            f"master.{name}"
+            for name in ("tolerance", "initial_step", "max_step")
+            if getattr(master, name) != getattr(defaults, name)
+        ]
+        if unused:
+            found.append(
+                f"{', '.join(unused)} has no effect with contact on the track side, which steps "
+                "without error control unless master.algorithm is newton"
+            )
     return found

@@ -13,7 +13,13 @@ from build_fmus import Structure, default_directory, ensure_fmus
 from orchestrator import Master, Recorder
 from orchestrator.replay import ReplayCase
 
-from .coupled_system import fmu_sources, indicators, join, master_settings
+from .coupled_system import (
+    fmu_sources,
+    join,
+    located_events,
+    master_settings,
+    with_steps_for,
+)
 from .dataset import assemble, count
 from .errors import InputError, RunError
 from .evidence import keeping_evidence
@@ -35,7 +41,7 @@ if TYPE_CHECKING:
     from vehicle_fmu.speed import SpeedLaw
 
     from .scenario import Scenario
-    from .signals import Signal
+    from .signals import ContactSide, Signal
     from .watched_control import Progress
 
 FEWEST_POINTS = 2
@@ -46,6 +52,7 @@ def run_passage(
     scenario: Scenario,
     *,
     fmus: str = "python",
+    contact: ContactSide = "vehicle",
     timeout: float | None = None,
     replay: Path | None = None,
     directory: Path | None = None,
@@ -60,6 +67,9 @@ def run_passage(
         What to run.
     fmus : str
         Which build of the FMUs runs: ``python``.
+    contact : {"vehicle", "track"}
+        Which of the two FMUs has the contacts. On the track's side, nothing is iterated unless
+        the scenario names the algorithm newton.
     timeout : float, optional
         Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
     replay : Path, optional
@@ -83,9 +93,10 @@ def run_passage(
     RunError
         Where the co-simulation cannot go on; with the result so far.
     """
+    scenario = with_steps_for(scenario, contact)
     law = speed_law(scenario.vehicle)
     check_profiles(scenario)
-    paths = build_for(scenario, directory=directory, notify=notify)
+    paths = build_for(scenario, contact=contact, directory=directory, notify=notify)
     provenance = _provenance(paths)
 
     def label(outcome: Outcome) -> xr.Dataset | None:
@@ -94,17 +105,19 @@ def run_passage(
         return assemble(
             scenario,
             times=recorder.time,
-            series=_series(scenario, recorder),
+            series=_series(scenario, recorder, contact),
             attempts=attempts(outcome),
-            attributes={"fmus": fmus, **provenance, **statistics(outcome)},
+            attributes={"fmus": fmus, "contact": contact, **provenance, **statistics(outcome)},
         )
 
     try:
         with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
-            sources = fmu_sources(scenario, paths, law, timeout=timeout)
-            system = join(sources, scenario.vehicle.wheels)
-            recorder = Recorder([path for signal in SIGNALS for path in _paths(scenario, signal)])
-            master, case = _prepare(scenario, law, system, sources, recorder, report=report)
+            sources = fmu_sources(scenario, paths, law, contact=contact, timeout=timeout)
+            system = join(sources, scenario.vehicle.wheels, contact)
+            signals = [path for signal in SIGNALS for path in _paths(scenario, signal, contact)]
+            recorder = Recorder(signals + _origins(scenario, contact))
+            case = _case(scenario, law, system, sources, recorder, contact=contact)
+            master = _master(system, case, recorder, report=report)
             with keeping_evidence(case, replay, label):
                 outcome = master.run(case.start_time, case.stop_time)
     except orchestrator.InputError as error:
@@ -121,6 +134,7 @@ def run_passage(
 def build_for(
     scenario: Scenario,
     *,
+    contact: ContactSide = "vehicle",
     directory: Path | None = None,
     notify: Callable[[str], None] | None = None,
 ) -> FmuPaths:
@@ -140,7 +154,7 @@ def build_for(
     )
     directory = directory or default_directory()
     try:
-        return ensure_fmus(directory, structure, progress=notify)
+        return ensure_fmus(directory, structure, contact=contact, progress=notify)
     except OSError as error:
         raise RunError(
             f"the FMUs cannot be written to {directory}: {error.strerror or error}; make that "
@@ -148,46 +162,66 @@ def build_for(
         ) from error
 
 
-def _prepare(
+def _case(
     scenario: Scenario,
     law: SpeedLaw,
     system: System,
     sources: tuple[FmuSource, ...],
     recorder: Recorder,
     *,
-    report: Callable[[Progress], None] | None,
-) -> tuple[Master, ReplayCase]:
-    """Return the master over the whole way, and what it takes to repeat its run."""
-    stop_time = travel_time(law, scenario.distance)
-    settings = master_settings(scenario)
-    control = settings.make_controller(stop_time)
-    if report is not None:
-        control = WatchedControl(control, stop_time=stop_time, report=report)
-    events = tuple(indicators(scenario.vehicle.wheels))
-    master = Master(system, settings, controller=control, events=events, observers=[recorder])
-    case = ReplayCase(
+    contact: ContactSide,
+) -> ReplayCase:
+    """Say what is run over the whole way, and what it takes to repeat it."""
+    return ReplayCase(
         name="passage",
         sources=sources,
         connections=system.connections,
-        settings=settings,
-        events=events,
+        settings=master_settings(scenario, contact),
+        events=tuple(located_events(scenario, contact)),
         observed=tuple(recorder.choose(system.variables())),
         start_time=0.0,
-        stop_time=stop_time,
+        stop_time=travel_time(law, scenario.distance),
     )
-    return master, case
 
 
-def _paths(scenario: Scenario, signal: Signal) -> list[str]:
-    return [signal.path(k) for k in range(1, count(scenario)[signal.dim] + 1)]
+def _master(
+    system: System,
+    case: ReplayCase,
+    recorder: Recorder,
+    *,
+    report: Callable[[Progress], None] | None,
+) -> Master:
+    control = case.settings.make_controller(case.stop_time)
+    if report is not None:
+        control = WatchedControl(control, stop_time=case.stop_time, report=report)
+    return Master(
+        system, case.settings, controller=control, events=case.events, observers=[recorder]
+    )
 
 
-def _series(scenario: Scenario, recorder: Recorder) -> dict[str, NDArray[np.float64]]:
+def _paths(scenario: Scenario, signal: Signal, contact: ContactSide) -> list[str]:
+    return [signal.path(k, contact) for k in range(1, count(scenario)[signal.dim] + 1)]
+
+
+def _origins(scenario: Scenario, contact: ContactSide) -> list[str]:
+    """Name what wheel displacements count from, where that is not the unloaded rail."""
+    wheels = scenario.vehicle.wheels if contact == "track" else 0
+    return [f"track.wheel[{k}].static_displacement" for k in range(1, wheels + 1)]
+
+
+def _series(
+    scenario: Scenario, recorder: Recorder, contact: ContactSide
+) -> dict[str, NDArray[np.float64]]:
     """Gather the columns of every signal, shape (times, wheels or sleepers or gauges)."""
-    return {
-        signal.name: np.stack([recorder[path] for path in _paths(scenario, signal)], axis=1)
+    series = {
+        signal.name: np.stack(
+            [recorder[path] for path in _paths(scenario, signal, contact)], axis=1
+        )
         for signal in SIGNALS
     }
+    for wheel, path in enumerate(_origins(scenario, contact)):
+        series["wheel_displacement"][:, wheel] += recorder[path]
+    return series
 
 
 def _provenance(paths: FmuPaths) -> dict[str, str]:

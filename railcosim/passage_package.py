@@ -18,9 +18,10 @@ from orchestrator.ssp import (
     write_description,
 )
 
-from .coupled_system import connections, indicators, master_settings, track_values, vehicle_values
+from .coupled_system import connections, located_events, master_settings, with_steps_for
 from .errors import RunError
 from .motion import speed_law, travel_time
+from .start_values import track_values, vehicle_values
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -28,8 +29,9 @@ if TYPE_CHECKING:
 
     from build_fmus import FmuPaths
 
-    from .coupled_system import Value
     from .scenario import Scenario
+    from .signals import ContactSide
+    from .start_values import Value
 
 
 def ensure_package(
@@ -37,6 +39,7 @@ def ensure_package(
     fmus: FmuPaths,
     path: Path,
     *,
+    contact: ContactSide = "vehicle",
     notify: Callable[[str], None] | None = None,
 ) -> None:
     """Write the package of a passage where it is missing or stale.
@@ -46,9 +49,11 @@ def ensure_package(
     scenario : Scenario
         The passage; it names no files.
     fmus : FmuPaths
-        FMUs of its size.
+        FMUs of its size and of this pair.
     path : Path
         The .ssp file; the same passage and FMUs give the same bytes.
+    contact : {"vehicle", "track"}
+        Which of the FMUs has the contacts.
     notify : callable, optional
         Told in a few words when it has to be built.
 
@@ -58,7 +63,7 @@ def ensure_package(
         Where it cannot be written.
     """
     files = {
-        "SystemStructure.ssd": write_description(describe_passage(scenario, fmus)),
+        "SystemStructure.ssd": write_description(describe_passage(scenario, fmus, contact)),
         **{_source(fmu): fmu.read_bytes() for fmu in (fmus.track, fmus.vehicle)},
     }
     if holds(path, files):
@@ -73,7 +78,9 @@ def ensure_package(
         ) from error
 
 
-def describe_passage(scenario: Scenario, fmus: FmuPaths) -> SystemDescription:
+def describe_passage(
+    scenario: Scenario, fmus: FmuPaths, contact: ContactSide = "vehicle"
+) -> SystemDescription:
     """Return what `run_passage` runs as a system description.
 
     Parameters
@@ -81,24 +88,29 @@ def describe_passage(scenario: Scenario, fmus: FmuPaths) -> SystemDescription:
     scenario : Scenario
         The passage.
     fmus : FmuPaths
-        FMUs of its size.
+        FMUs of its size and of this pair.
+    contact : {"vehicle", "track"}
+        Which of the FMUs has the contacts.
     """
+    scenario = with_steps_for(scenario, contact)
     law = speed_law(scenario.vehicle)
     wheels = scenario.vehicle.wheels
     links = tuple(
-        Link(start=_end(item.source), end=_end(item.target)) for item in connections(wheels)
+        Link(start=_end(item.source), end=_end(item.target))
+        for item in connections(wheels, contact)
     )
     return SystemDescription(
         name="Passage",
         components=(
-            _component("vehicle", fmus.vehicle, links, vehicle_values(scenario, law)),
-            _component("track", fmus.track, links, track_values(scenario, law)),
+            _component("vehicle", fmus.vehicle, links, vehicle_values(scenario, law, contact)),
+            _component("track", fmus.track, links, track_values(scenario, law, contact)),
         ),
         links=links,
         start_time=0.0,
         stop_time=travel_time(law, scenario.distance),
         master=MasterChoices(
-            settings=_chosen(master_settings(scenario)), events=tuple(indicators(wheels))
+            settings=_chosen(master_settings(scenario, contact)),
+            events=tuple(located_events(scenario, contact)),
         ),
     )
 

@@ -77,6 +77,7 @@ class Scenario:
         vehicle, master = self.vehicle, self.master
         if not vehicle.speed_table:
             vehicle = replace(vehicle, speed_kmh=vehicle.speed_kmh or DEFAULT_SPEED_KMH)
+        master = replace(master, algorithm=master.algorithm or "newton")
         if master.step is None:
             master = replace(master, max_step=master.largest_step)
         flat = replace(self.flat, position=self.flat_position)

@@ -7,6 +7,9 @@ from typing import Literal, TypeAlias
 
 Dimension: TypeAlias = Literal["wheel", "sleeper", "gauge"]
 
+ContactSide: TypeAlias = Literal["vehicle", "track"]
+"""Which of the two FMUs has the contacts."""
+
 COMPRESSION = "positive in compression"
 DOWN = "positive downwards"
 FORWARDS = "positive in the direction of travel"
@@ -22,7 +25,8 @@ class Signal:
     name : str
         Name in the result.
     source : str
-        ``component.variable`` in the co-simulation, with ``[k]`` where the index belongs.
+        ``component.variable`` in the co-simulation, with ``[k]`` where the index belongs; the
+        component ``contact`` is the one that has the contacts.
     dim : {"wheel", "sleeper", "gauge"}
         What k counts.
     units, long_name, sign : str
@@ -36,9 +40,10 @@ class Signal:
     long_name: str
     sign: str
 
-    def path(self, k: int) -> str:
+    def path(self, k: int, contact: ContactSide = "vehicle") -> str:
         """Name the output of the k-th wheel, sleeper or gauge, counted from 1."""
-        return self.source.replace("[k]", f"[{k}]")
+        component, _, variable = self.source.replace("[k]", f"[{k}]").partition(".")
+        return f"{contact if component == 'contact' else component}.{variable}"
 
     @property
     def attributes(self) -> dict[str, str]:
@@ -49,7 +54,7 @@ class Signal:
 SIGNALS = (
     Signal(
         name="contact_force",
-        source="vehicle.wheel[k].contact_force",
+        source="contact.wheel[k].contact_force",
         dim="wheel",
         units="N",
         long_name="wheel-rail contact force",
@@ -57,7 +62,7 @@ SIGNALS = (
     ),
     Signal(
         name="gap",
-        source="vehicle.wheel[k].gap",
+        source="contact.wheel[k].gap",
         dim="wheel",
         units="m",
         long_name="gap between wheel and rail, minus the compression",
@@ -65,7 +70,7 @@ SIGNALS = (
     ),
     Signal(
         name="in_contact",
-        source="vehicle.wheel[k].in_contact",
+        source="contact.wheel[k].in_contact",
         dim="wheel",
         units="1",
         long_name="whether the wheel touches the rail",

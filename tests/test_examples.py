@@ -29,3 +29,11 @@ def test_hand_written_loop(paths):
     """Within 0.2 % of the peak of the full finite element model, 234.31 kN."""
     example = runpy.run_path(str(EXAMPLES / "hand_written_loop.py"))
     assert example["passage"](*paths) == pytest.approx(234.31e3, rel=2e-3)
+
+
+def test_contact_on_track(tmp_path):
+    """The same, at four times the step."""
+    fmus = ensure_fmus(tmp_path, contact="track")
+    example = runpy.run_path(str(EXAMPLES / "contact_on_track.py"))
+    peak = example["passage"](str(fmus.track), str(fmus.vehicle))
+    assert peak == pytest.approx(234.31e3, rel=2e-3)

@@ -9,9 +9,11 @@ that repeats the step with other forces pays for a few small products, not for a
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 
+from .answer import Answer
 from .beam_element import FloatArray
 from .components import ActiveComponents
 from .contact_point import RailPoint
@@ -47,6 +49,11 @@ class StepOperator:
     linear : bool
         Whether positions and forces change on straight lines from the last ones, or jump at the
         start of the step and are held.
+
+    Attributes
+    ----------
+    first_increment : (c,) float array
+        Force increments of the active components before the step [N].
     """
 
     def __init__(
@@ -65,6 +72,7 @@ class StepOperator:
         self.positions = positions.copy()
         self._active = active
         self._start = state.flat.copy()
+        self.first_increment: FloatArray = state.increment[active.number]
         self._contact: ComplexArray = np.array([w.shape @ track.shape[w.rows] for w in wheels])
         self._end = exponential.end
         self._contact_end = exponential.end if linear else exponential.start + exponential.end
@@ -87,14 +95,46 @@ class StepOperator:
 
     def apply(self, state: TrackState, forces: FloatArray) -> None:
         """Move the state to the end of the step under the contact forces there, shape (wheels,)."""
-        increment = self._solve_increments(state.increment[self._active.number], forces)
+        self.move(state, forces, self._solve_increments(self.first_increment, forces))
+
+    def displacement(self, forces: FloatArray, increment: FloatArray) -> FloatArray:
+        """Rail displacement under the wheels at the end of the step [m], shape (wheels,)."""
+        return np.asarray(
+            self._free_contact + self._contact_contact @ forces - self._contact_active @ increment
+        )
+
+    def demanded(self, forces: FloatArray, increment: FloatArray) -> FloatArray:
+        """Force increments that the motion under given forces and increments asks for, (c,) [N]."""
+        return self._active.force(
+            self._free_active + self._active_contact @ forces - self._active_active @ increment,
+            self._free_rate + self._rate_contact @ forces - self._rate_active @ increment,
+        )
+
+    @cached_property
+    def answer(self) -> Answer:
+        """How increments and rail displacements answer to forces, with the tangents at the start.
+
+        As those of the increments' own iteration, they depend on the state alone.
+        """
+        increments = self._correction @ (
+            self._stiffness[:, None] * self._active_contact
+            + self._damping[:, None] * self._rate_contact
+        )
+        relief = self._contact_active @ self._correction
+        return Answer(
+            increments=increments,
+            displacement=self._contact_contact - self._contact_active @ increments,
+            correction=self._correction,
+            relief=relief,
+        )
+
+    def move(self, state: TrackState, forces: FloatArray, increment: FloatArray) -> None:
+        """Move the state to the end of the step under given contact forces and increments there."""
         contact_load = forces @ self._contact
         increment_load = increment @ self._active.shape
         state.modal[:] = self._free + self._contact_end * contact_load - self._end * increment_load
         state.load[:] = contact_load - increment_load
-        state.displacement[:] = (
-            self._free_contact + self._contact_contact @ forces - self._contact_active @ increment
-        )
+        state.displacement[:] = self.displacement(forces, increment)
         new_increment = np.zeros_like(state.increment)
         new_increment[self._active.number] = increment
         state.increment_rate[:] = (new_increment - state.increment) / self.step_size
@@ -159,8 +199,8 @@ class StepOperator:
         """
         deformation = self._free_active + self._active_contact @ state.force
         deformation -= self._active_active @ state.increment[self._active.number]
-        stiffness = self._active.stiffness(deformation)
-        damping = self._active.damping(deformation)
+        self._stiffness = stiffness = self._active.stiffness(deformation)
+        self._damping = damping = self._active.damping(deformation)
         jacobian = stiffness[:, None] * self._active_active + damping[:, None] * self._rate_active
         return np.asarray(np.linalg.inv(np.eye(self._active.count) + jacobian))
 

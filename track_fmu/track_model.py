@@ -111,6 +111,11 @@ class TrackModel:
         """Rail displacement under each wheel [m], shape (wheels,)."""
         return self._state.displacement.copy()
 
+    @property
+    def contact_force(self) -> FloatArray:
+        """Contact forces as last applied [N], shape (wheels,)."""
+        return self._state.force.copy()
+
     def start(self, positions: FloatArray, forces: FloatArray) -> None:
         """Set the static equilibrium under the given wheels, moving at the initial speed.
 
@@ -172,11 +177,14 @@ class TrackModel:
         try:
             for part in range(1, parts + 1):
                 share = part / parts if linear and part < parts else 1.0
-                self._advance(
+                operator = self.step_operator(
                     step_size / parts,
                     positions if share == 1.0 else start + share * (positions - start),
-                    forces if share == 1.0 else start_force + share * (forces - start_force),
                     linear=linear,
+                )
+                operator.apply(
+                    self._state,
+                    forces if share == 1.0 else start_force + share * (forces - start_force),
                 )
         except RuntimeError:
             if before is not None:
@@ -193,10 +201,10 @@ class TrackModel:
             )
         return self._observation
 
-    def _advance(
-        self, step_size: float, positions: FloatArray, forces: FloatArray, *, linear: bool
-    ) -> None:
-        """Advance by one undivided step; a step repeated with other forces costs little."""
+    def step_operator(
+        self, step_size: float, positions: FloatArray, *, linear: bool
+    ) -> StepOperator:
+        """One undivided step to given wheel positions, for any forces; kept to be repeated."""
         operator = self._operator
         if operator is None or not operator.serves(self._state, step_size, positions, linear):
             operator = self._operator = StepOperator(
@@ -209,7 +217,12 @@ class TrackModel:
                 wheels=self._locate(positions),
                 linear=linear,
             )
-        operator.apply(self._state, forces)
+        return operator
+
+    def move(self, operator: StepOperator, forces: FloatArray, increment: FloatArray) -> None:
+        """Take the step of an operator under given forces and active increments at its end."""
+        operator.move(self._state, forces, increment)
+        self._observation = None
 
     def _check_forces(self, forces: FloatArray) -> None:
         for number, force in enumerate(forces, start=1):

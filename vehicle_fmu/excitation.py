@@ -6,7 +6,8 @@ from functools import cached_property
 from .irregularity import RailIrregularity
 from .parameters import FlatParameters, VehicleParameters
 from .speed import SpeedLaw
-from .wheel_profile import Profile, WheelProfileTable, flat_along_rail
+from .surfaces import surface_profiles
+from .wheel_profile import Profile, WheelProfileTable
 
 # A step of exactly n longest substeps takes n of them, whatever the rounding of the quotient.
 _ROUNDING = 1e-9
@@ -92,23 +93,10 @@ class Excitation:
 
         Built at first use: a rolled flat takes some 20 ms.
         """
-        rail = None if self._irregularity is None else self._irregularity.curve()
-        profiles = [_sum(None, rail)] * self._parameters.wheels
-        if self._flat.shape != "none":
-            radius = self._parameters.wheel_radius
-            tread = flat_along_rail(self._flat, self._flat_table, radius=radius)
-            profiles[self._flat.wheel - 1] = _sum(tread, rail)
-        return profiles
-
-
-def _sum(tread: Profile | None, rail: Profile | None) -> Profile:
-    """Return the sum of two profiles of which either may be missing."""
-    if tread is None:
-        return rail if rail is not None else _no_drop
-    if rail is None:
-        return tread
-    return lambda x: tread(x) + rail(x)
-
-
-def _no_drop(_: float) -> float:
-    return 0.0
+        return surface_profiles(
+            self._flat,
+            self._flat_table,
+            self._irregularity,
+            wheels=self._parameters.wheels,
+            radius=self._parameters.wheel_radius,
+        )

@@ -8,7 +8,7 @@ which a host's wrapper executes twice, only names the class; it refuses code of 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -20,7 +20,9 @@ import track_fmu
 import vehicle_fmu
 from fmu_src.archive import content_hash
 
+from .masses_slave import MassesSlave
 from .model_slave import ModelSlave
+from .track_contact_slave import TrackContactSlave
 from .track_slave import TrackSlave
 from .vehicle_slave import VehicleSlave
 
@@ -32,6 +34,8 @@ SHARED = (
     "tables.py",
     "variables.py",
 )
+TRACK_MODULES = ("track_slave.py", "track_variables.py", "track_making.py", "basis_cache.py")
+VEHICLE_MODULES = ("vehicle_slave.py", "vehicle_variables.py", "excitation.py")
 LIBRARIES = {"linux64": ".so", "win64": ".dll"}  # what pythonfmu provides
 
 
@@ -45,15 +49,15 @@ class Recipe:
         Model name and identifier.
     slave : type
         The slave class.
-    model : module
-        Package of the model.
+    models : tuple of module
+        Packages of the models in it.
     modules : tuple of str
-        Files beside the slave that only this FMU needs.
+        Files beside those that are shared by all; that of the slave class first.
     """
 
     name: str
     slave: type[ModelSlave]
-    model: ModuleType
+    models: tuple[ModuleType, ...]
     modules: tuple[str, ...]
 
 
@@ -61,14 +65,31 @@ RECIPES = {
     "track": Recipe(
         name="Track",
         slave=TrackSlave,
-        model=track_fmu,
-        modules=("track_slave.py", "track_variables.py", "basis_cache.py"),
+        models=(track_fmu,),
+        modules=TRACK_MODULES,
     ),
     "vehicle": Recipe(
         name="Vehicle",
         slave=VehicleSlave,
-        model=vehicle_fmu,
-        modules=("vehicle_slave.py", "vehicle_variables.py"),
+        models=(vehicle_fmu,),
+        modules=VEHICLE_MODULES,
+    ),
+    "track_contact": Recipe(
+        name="TrackContact",
+        slave=TrackContactSlave,
+        models=(track_fmu, vehicle_fmu),
+        modules=(
+            "track_contact_slave.py",
+            "track_contact_variables.py",
+            *TRACK_MODULES[1:],
+            *VEHICLE_MODULES[1:],
+        ),
+    ),
+    "masses": Recipe(
+        name="Masses",
+        slave=MassesSlave,
+        models=(vehicle_fmu,),
+        modules=("masses_slave.py", "masses_variables.py", *VEHICLE_MODULES[1:]),
     ),
 }
 
@@ -125,7 +146,7 @@ def fmu_contents(kind: str, structure: Mapping[str, int]) -> dict[str, bytes]:
         structure="\n".join(f"    {name} = {value}" for name, value in sorted(structure.items())),
     )
     contents = {
-        f"resources/{package}/{name}": _renamed(data, recipe.model.__name__, package)
+        f"resources/{package}/{name}": _renamed(data, recipe.models, package)
         for name, data in sources.items()
     }
     contents[f"resources/{package}/__init__.py"] = (
@@ -140,19 +161,21 @@ def fmu_contents(kind: str, structure: Mapping[str, int]) -> dict[str, bytes]:
 
 def _sources(recipe: Recipe) -> dict[str, bytes]:
     """Code of the model and of the slave, by path within the package."""
-    model = Path(str(recipe.model.__file__)).parent
     slave = Path(__file__).parent
     sources = {
-        f"{recipe.model.__name__}/{path.name}": path.read_bytes() for path in model.glob("*.py")
+        f"{model.__name__}/{path.name}": path.read_bytes()
+        for model in recipe.models
+        for path in Path(str(model.__file__)).parent.glob("*.py")
     }
     sources |= {f"slave/{name}": (slave / name).read_bytes() for name in (*SHARED, *recipe.modules)}
     return sources
 
 
-def _renamed(source: bytes, model: str, package: str) -> bytes:
-    """Source with the model's package imported from within the FMU's own package."""
-    pattern = rf"^(\s*from ){model}\b"
-    return re.sub(pattern, rf"\1{package}.{model}", source.decode(), flags=re.MULTILINE).encode()
+def _renamed(source: bytes, models: Sequence[ModuleType], package: str) -> bytes:
+    """Source with the models' packages imported from within the FMU's own package."""
+    names = "|".join(model.__name__ for model in models)
+    pattern = rf"^(\s*from )({names})\b"
+    return re.sub(pattern, rf"\g<1>{package}.\g<2>", source.decode(), flags=re.MULTILINE).encode()
 
 
 def _libraries(identifier: str) -> dict[str, bytes]:

@@ -36,14 +36,19 @@ def declare_track(structure: TrackParameters, *, wheels: int, gauges: int) -> li
     wheels, gauges : int
         Number of wheels and of bending moment gauges.
     """
+    known = tuple(
+        f"wheel[{i}].{name}" for i in range(1, wheels + 1) for name in ("position", "contact_force")
+    )
     return [
-        *_parameters(structure, gauges),
-        *_inputs(structure, wheels),
-        *_outputs(structure, wheels, gauges),
+        *track_parameters(structure, gauges),
+        *position_inputs(structure, wheels),
+        *_force_inputs(wheels),
+        *track_outputs(structure, wheels, gauges, known=known),
     ]
 
 
-def _parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
+def track_parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
+    """Parameters of a track, wherever its contacts are."""
     variables = [
         Variable(
             name=name,
@@ -118,8 +123,9 @@ def _parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
     return variables
 
 
-def _inputs(structure: TrackParameters, wheels: int) -> list[Variable]:
-    positions = [
+def position_inputs(structure: TrackParameters, wheels: int) -> list[Variable]:
+    """Track positions of the wheels."""
+    return [
         Variable(
             name=f"wheel[{i + 1}].position",
             causality="input",
@@ -133,7 +139,10 @@ def _inputs(structure: TrackParameters, wheels: int) -> list[Variable]:
         )
         for i in range(wheels)
     ]
-    forces = [
+
+
+def _force_inputs(wheels: int) -> list[Variable]:
+    return [
         Variable(
             name=f"wheel[{i + 1}].contact_force",
             causality="input",
@@ -147,13 +156,12 @@ def _inputs(structure: TrackParameters, wheels: int) -> list[Variable]:
         )
         for i in range(wheels)
     ]
-    return positions + forces
 
 
-def _outputs(structure: TrackParameters, wheels: int, gauges: int) -> list[Variable]:
-    known = tuple(
-        f"wheel[{i}].{name}" for i in range(1, wheels + 1) for name in ("position", "contact_force")
-    )
+def track_outputs(
+    structure: TrackParameters, wheels: int, gauges: int, *, known: tuple[str, ...]
+) -> list[Variable]:
+    """What a track shows of itself, depending at the start on the variables ``known``."""
     supports = structure.supports
     kinds = (
         ("wheel", "rail_displacement", "rail_displacement", wheels, "m", 1e-3,

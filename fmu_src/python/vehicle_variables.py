@@ -33,12 +33,18 @@ SPEED = 40.0 / 3.6  # m/s, of the demonstration example
 
 def declare_vehicle(wheels: int) -> list[Variable]:
     """Variables of a vehicle FMU with the given number of wheels."""
-    return [*_parameters(), *_inputs(wheels), *_outputs(wheels)]
+    return [
+        *speed_parameters(),
+        *vehicle_parameters(*(name for name, _, _ in VEHICLE)),
+        *excitation_parameters(),
+        *_inputs(wheels),
+        *_outputs(wheels),
+    ]
 
 
-def _parameters() -> list[Variable]:
-    vehicle, flat = VehicleParameters(), FlatParameters(shape="haversine")
-    variables = [
+def speed_parameters() -> list[Variable]:
+    """How a vehicle moves along the track."""
+    return [
         Variable(
             name="speed",
             causality="parameter",
@@ -54,6 +60,13 @@ def _parameters() -> list[Variable]:
             description="Path of a CSV file with time [s] and speed [m/s], instead of the "
             "constant speed; empty: none",
         ),
+    ]
+
+
+def excitation_parameters() -> list[Variable]:
+    """Irregularity of the railhead and flat of a wheel."""
+    flat = FlatParameters(shape="haversine")
+    return [
         Variable(
             name="rail_irregularity",
             causality="parameter",
@@ -62,19 +75,29 @@ def _parameters() -> list[Variable]:
             "[m], downwards positive; empty: a smooth rail",
         ),
         Variable(name="flat.shape", causality="parameter", start=flat.shape, description=SHAPE),
+        *_parameters(flat, "flat.", FLAT),
     ]
-    for owner, prefix, table in ((vehicle, "", VEHICLE), (flat, "flat.", FLAT)):
-        variables += [
-            Variable(
-                name=prefix + name,
-                causality="parameter",
-                unit=unit,
-                start=getattr(owner, name),
-                description=description,
-            )
-            for name, unit, description in table
-        ]
-    return variables
+
+
+def vehicle_parameters(*names: str) -> list[Variable]:
+    """Some of the parameters `VEHICLE`, in its order."""
+    rows = tuple(row for row in VEHICLE if row[0] in names)
+    return _parameters(VehicleParameters(), "", rows)
+
+
+def _parameters(
+    owner: object, prefix: str, table: tuple[tuple[str, str, str], ...]
+) -> list[Variable]:
+    return [
+        Variable(
+            name=prefix + name,
+            causality="parameter",
+            unit=unit,
+            start=getattr(owner, name),
+            description=description,
+        )
+        for name, unit, description in table
+    ]
 
 
 def _inputs(wheels: int) -> list[Variable]:

@@ -5,9 +5,9 @@ from orchestrator import MasterSettings
 from railcosim.coupled_system import (
     connect,
     indicators,
+    located_events,
     master_settings,
-    track_values,
-    vehicle_values,
+    with_steps_for,
 )
 from railcosim.dataset import count
 from railcosim.master_section import Master
@@ -16,6 +16,7 @@ from railcosim.passage import build_for
 from railcosim.scenario import Scenario
 from railcosim.sections import Flat, Run, Track, Vehicle
 from railcosim.signals import SIGNALS
+from railcosim.start_values import track_values, vehicle_values
 from vehicle_fmu.speed import SpeedTable
 
 UNITS = {"m": "m", "N": "N", "m s-1": "m/s", "N m": "N.m", "1": None}
@@ -64,6 +65,52 @@ def test_no_parameter_of_an_fmu_is_left_to_its_default(fmus):
             name for name, item in participant.variables.items() if item.causality == "parameter"
         }
         assert parameters - given[participant.name].keys() <= {"substep", "linear_inputs"}
+
+
+def test_nor_is_one_with_contact_on_the_track_side():
+    scenario = Scenario(vehicle=Vehicle(wheels=3), flat=Flat(wheel=2))
+    law = speed_law(scenario.vehicle)
+    given = {
+        "track": track_values(scenario, law, "track"),
+        "vehicle": vehicle_values(scenario, law, "track"),
+    }
+    system = connect(scenario, build_for(scenario, contact="track"), law, contact="track")
+    for participant in system.participants:
+        parameters = {
+            name for name, item in participant.variables.items() if item.causality == "parameter"
+        }
+        assert parameters - given[participant.name].keys() == {"linear_inputs"}
+    for signal in SIGNALS:
+        for k in range(1, count(scenario)[signal.dim] + 1):
+            _, variable = system.find(signal.path(k, "track"))
+            assert variable.unit == UNITS[signal.units], signal.name
+    for path in indicators(3, "track"):
+        system.find(path)
+
+
+@pytest.mark.parametrize(
+    ("keys", "algorithm", "step"),
+    [
+        ({}, "jacobi", 1e-4),
+        ({"step": 5e-5}, "jacobi", 5e-5),
+        ({"algorithm": "gauss_seidel", "step": 1e-4}, "gauss_seidel", 1e-4),
+        ({"algorithm": "newton"}, "newton", None),
+    ],
+)
+def test_contact_on_the_track_side_is_stepped_once_unless_newton_is_named(keys, algorithm, step):
+    scenario = with_steps_for(Scenario(master=Master(**keys)), "track")
+    settings = master_settings(scenario, "track")
+    assert (settings.algorithm, settings.fixed_step) == (algorithm, step)
+    explicit = algorithm != "newton"
+    assert settings.extrapolate is not explicit
+    assert (located_events(scenario, "track") == []) is explicit
+    # only a track that steps after the vehicle has the values of the end
+    values = track_values(scenario, speed_law(scenario.vehicle), "track")
+    assert values.get("linear_inputs", False) is (algorithm == "gauss_seidel")
+
+
+def test_contact_on_the_vehicle_side_leaves_a_scenario_as_it_is():
+    assert with_steps_for(Scenario(), "vehicle") == Scenario()
 
 
 def test_values_are_converted_to_si_once():

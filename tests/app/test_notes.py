@@ -18,3 +18,12 @@ def test_what_may_surprise_is_said(overrides, parts):
     said = notes(read_scenario(None, overrides))
     assert len(said) == len(parts)
     assert all(part in sentence for part, sentence in zip(parts, said, strict=True))
+
+
+def test_keys_without_effect_on_a_track_with_contacts_are_named():
+    case = read_scenario(None, ("master.tolerance=1e-4", "master.max_step=1e-4"))
+    assert notes(case) == []
+    (said,) = notes(case, "track")
+    assert said.startswith("master.tolerance, master.max_step has no effect with contact on the")
+    named = read_scenario(None, ("master.tolerance=1e-4", "master.algorithm=newton"))
+    assert notes(named, "track") == []

@@ -45,6 +45,25 @@ def test_the_package_runs_the_same_passage(fmus, tmp_path):
     assert left == set()
 
 
+def test_the_package_with_contact_on_the_track_runs_the_same_passage(tmp_path):
+    """Any tool that passes values on between its steps does what the master does with it."""
+    paths = build_for(SHORT, contact="track")
+    path = tmp_path / "short.ssp"
+    ensure_package(SHORT, paths, path, contact="track")
+    with open_system(path) as opened:
+        master = opened.description.master
+        assert (master.settings["algorithm"], master.settings["extrapolate"]) == ("jacobi", False)
+        assert master.events == ()
+        assert opened.unused == ()
+    passage = run_passage(SHORT, contact="track")
+    system = run_system(path, CosimOptions())
+    for name in ("contact_force", "gap", "rail_displacement", "bending_moment"):
+        signal = next(item for item in SIGNALS if item.name == name)
+        for k in passage[signal.dim].to_numpy():
+            expected = passage[name].sel({signal.dim: k}).to_numpy()
+            assert (system[signal.path(k, "track")].to_numpy() == expected).all(), name
+
+
 def test_the_package_of_the_papers_case(fmus, tmp_path):
     path = tmp_path / "Passage.ssp"
     told = []
@@ -90,6 +109,9 @@ def test_the_build_script_writes_the_package_too(tmp_path):
     done = subprocess.run(
         [sys.executable, script, "--output", tmp_path], capture_output=True, text=True, check=True
     )
-    names = ["Track.fmu", "Vehicle.fmu", "Passage.ssp"]
+    names = [
+        *("Track.fmu", "Vehicle.fmu", "Passage.ssp"),
+        *("TrackContact.fmu", "Masses.fmu", "PassageContactOnTrack.ssp"),
+    ]
     assert done.stdout.split() == [str(tmp_path / name) for name in names]
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(names)

@@ -141,6 +141,6 @@ def test_reading_the_resolved_text_gives_the_same_passage_bit_for_bit(
         vehicle=Vehicle(speed_kmh=speed, rail_irregularity=name),
         flat=Flat(depth=depth, position=17.0, rolled=True),
         run=Run(approach=1.0),
-        master=Master(step=1e-4),
+        master=Master(algorithm="newton", step=1e-4),
     )
     assert from_toml(to_toml(case)) == case

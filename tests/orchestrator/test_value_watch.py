@@ -80,10 +80,10 @@ def test_lines_and_values_under_control_and_fixed_steps_are_none():
 def test_values_below_what_their_nominal_value_lets_pass_are_a_doubt(settings):
     amplitude = 1e-7
     outcome, recorder = run(decay(x0=amplitude, rate=-10.0), **settings)
-    # The reason for the warning: the error is a good part of the largest value.
-    assert abs(recorder["body.y"] - amplitude * np.exp(-10.0 * recorder.time)).max() > 0.02e-7
+    # The reason for the warning: some percent of the largest value and more are lost.
+    assert abs(recorder["body.y"] - amplitude * np.exp(-10.0 * recorder.time)).max() > 0.01e-7
     (warning,) = outcome.warnings
-    assert warning.startswith("body.y never exceeded 1e-07, so that an error of 1e-0")
+    assert warning.startswith("body.y never exceeded 1e-07, so that an error of ")
 
 
 def test_a_nominal_value_of_their_magnitude_helps():

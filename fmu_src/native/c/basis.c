@@ -1,0 +1,65 @@
+#include "basis.h"
+
+#include <math.h>
+
+#include "rows.h"
+
+enum { WHEELS, GAUGES, BAYS, ELEMENTS_PER_BAY, MODES, HALF, SIZES };
+enum { SPACING, SHEAR_PARAMETER, PAD_K, PAD_C, BALLAST_K, BALLAST_C, NUMBERS };
+
+#define TINY 1e-12 /* lengths and stiffnesses are larger, in any unit */
+#define MOST 1000000 /* more of anything is a damaged resource, and its square fits in a size_t */
+
+static int sizes_fit(const int64_t *size)
+{
+    for (size_t i = 0; i < SIZES; ++i)
+        if (size[i] < 0 || size[i] > MOST)
+            return 0;
+    return size[WHEELS] >= 1 && size[BAYS] >= 2 && size[ELEMENTS_PER_BAY] >= 1 &&
+           size[BAYS] * size[ELEMENTS_PER_BAY] <= MOST && size[MODES] >= 1 &&
+           size[HALF] >= size[MODES] && size[HALF] % RC_LANES == 0;
+}
+
+rc_status rc_read_basis(rc_model *model, rc_basis *basis)
+{
+    size_t count;
+    const int64_t *size = rc_find_section(&model->resource, "structure", RC_INT64, &count);
+    if (size == NULL || count != SIZES || !sizes_fit(size))
+        return rc_fail(model, RC_ERROR, "the resource does not say how large the track is; build "
+                                        "the FMU again");
+    const double *number = rc_require_section(model, "numbers", NUMBERS);
+    if (number == NULL)
+        return RC_ERROR;
+    for (size_t i = 0; i < NUMBERS; ++i)
+        if (!(isfinite(number[i]) && number[i] >= (i == PAD_C || i == BALLAST_C ? 0.0 : TINY)))
+            return rc_fail(model, RC_ERROR, "the resource describes a track that cannot be (number "
+                                            "%zu is %g); build the FMU again", i + 1, number[i]);
+    basis->wheels = (size_t)size[WHEELS];
+    basis->gauges = (size_t)size[GAUGES];
+    basis->supports = (size_t)size[BAYS] - 1;
+    basis->elements = (size_t)(size[BAYS] * size[ELEMENTS_PER_BAY]);
+    basis->nodes = basis->elements + 1;
+    basis->coordinates = 2 * (basis->nodes + basis->supports);
+    basis->modes = (size_t)size[MODES];
+    basis->half = (size_t)size[HALF];
+    basis->length = 2 * basis->half;
+    basis->spacing = number[SPACING];
+    basis->element_length = number[SPACING] / (double)size[ELEMENTS_PER_BAY];
+    basis->track_length = (double)size[BAYS] * number[SPACING];
+    basis->shear_parameter = number[SHEAR_PARAMETER];
+    basis->pad_stiffness = number[PAD_K];
+    basis->pad_damping = number[PAD_C];
+    basis->ballast_stiffness = number[BALLAST_K];
+    basis->ballast_damping = number[BALLAST_C];
+    const size_t n = basis->coordinates, nodes = basis->nodes, length = basis->length;
+    if ((basis->eigenvalues = rc_require_section(model, "eigenvalues", length)) == NULL ||
+        (basis->inverses = rc_require_section(model, "inverses", length)) == NULL ||
+        (basis->weight = rc_require_section(model, "weight", basis->half)) == NULL ||
+        (basis->shape = rc_require_section(model, "shape", n * length)) == NULL ||
+        (basis->moment_shape = rc_require_section(model, "moment_shape", nodes * length)) == NULL ||
+        (basis->flexibility = rc_require_section(model, "flexibility", n * n)) == NULL ||
+        (basis->moment_flexibility = rc_require_section(model, "moment_flexibility", nodes * n)) ==
+            NULL)
+        return RC_ERROR;
+    return RC_OK;
+}

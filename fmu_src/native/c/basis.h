@@ -1,0 +1,50 @@
+/* The track in its modes, as the resource holds it; twin of track_fmu/reduction.py.
+ *
+ * Coordinates: deflection and rotation of every rail node, then the deformation of the ballast
+ * under every sleeper, then that of every pad.
+ */
+#ifndef RC_BASIS_H
+#define RC_BASIS_H
+
+#include <stddef.h>
+
+#include "instance.h"
+
+typedef struct {
+    size_t wheels, gauges, elements, supports;
+    size_t nodes, coordinates; /* elements + 1; 2 nodes + 2 supports */
+    size_t modes, half, length; /* half: modes filled up; length of a row: twice that */
+    double element_length, spacing, shear_parameter, track_length;
+    double pad_stiffness, pad_damping, ballast_stiffness, ballast_damping;
+    const double *eigenvalues;  /* row */
+    const double *inverses;     /* row of 1 / lambda */
+    const double *weight;       /* half */
+    const double *shape;        /* (coordinates, length), rows */
+    const double *moment_shape; /* (nodes, length), rows */
+    const double *flexibility;  /* (coordinates, coordinates) */
+    const double *moment_flexibility; /* (nodes, coordinates) */
+} rc_basis;
+
+rc_status rc_read_basis(rc_model *model, rc_basis *basis);
+
+static inline const double *rc_shape(const rc_basis *basis, size_t coordinate)
+{
+    return basis->shape + coordinate * basis->length;
+}
+
+static inline const double *rc_flexibility(const rc_basis *basis, size_t coordinate)
+{
+    return basis->flexibility + coordinate * basis->coordinates;
+}
+
+static inline size_t rc_ballast(const rc_basis *basis, size_t support)
+{
+    return 2 * basis->nodes + support;
+}
+
+static inline size_t rc_pad(const rc_basis *basis, size_t support)
+{
+    return 2 * basis->nodes + basis->supports + support;
+}
+
+#endif

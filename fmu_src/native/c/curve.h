@@ -1,0 +1,26 @@
+/* Curves through tabulated points; twins of vehicle_fmu/interpolation.py. */
+#ifndef RC_CURVE_H
+#define RC_CURVE_H
+
+#include <stddef.h>
+
+/* A continuous piecewise cubic; constant beyond its ends. */
+typedef struct {
+    size_t points;  /* 0: there is no curve */
+    double *breaks; /* points, then 4 coefficients of every piece, in one block of memory */
+    double *pieces;
+    double first, last;
+} rc_curve;
+
+/* Make a curve from points of strictly increasing x; 0 if there is not enough memory. */
+int rc_make_linear(rc_curve *curve, const double *x, const double *y, size_t points);
+int rc_make_monotone(rc_curve *curve, const double *x, const double *y, size_t points);
+/* `slopes` holds the slope at the left and at the right end of every piece. */
+int rc_make_cubic(rc_curve *curve, const double *x, const double *y, const double *slopes,
+                  size_t points);
+
+double rc_curve_at(const rc_curve *curve, double x);
+
+void rc_free_curve(rc_curve *curve);
+
+#endif

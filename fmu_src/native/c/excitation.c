@@ -1,0 +1,53 @@
+/* What the wheels roll over, and how they roll over it; twin of vehicle_fmu/excitation.py and
+ * running_surface.py. */
+#include <math.h>
+
+#include "vehicle.h"
+
+#define SUBSTEP_ROUNDING 1e-9 /* n longest substeps are n substeps, whatever the rounding */
+
+double rc_leading_position(const rc_vehicle *own, double start, double time)
+{
+    return own->initial_position + rc_distance(&own->motion, start, time);
+}
+
+double rc_drop(const rc_vehicle *own, size_t wheel, double leading)
+{
+    const double x = leading - (double)wheel * own->axle_base;
+    const double rail = own->irregularity.points > 0 ? rc_curve_at(&own->irregularity, x) : 0.0;
+    if (own->flat.shape == RC_NO_FLAT || wheel != own->flat.wheel)
+        return rail;
+    return rc_flat_drop(&own->flat, x) + rail;
+}
+
+rc_wheel_motion rc_roll_wheel(const rc_vehicle *own, size_t wheel, const rc_way *over,
+                              rc_wheel_motion motion, rc_wheel_motion *change)
+{
+    const size_t substeps =
+        (size_t)ceil(over->step / own->substep * (1.0 - SUBSTEP_ROUNDING));
+    const size_t halves = 2 * substeps;
+    const double count = (double)halves, h = over->step / (double)substeps;
+    const double rise = (over->rail_end - over->rail_start) / count;
+    const double more = (over->rise_end - over->rise_start) / count;
+    double level[3], lift[3];
+    for (size_t k = 0; k <= halves; ++k) {
+        const int last = k == halves;
+        const double part = (double)k;
+        const double time = last ? over->time + over->step
+                                 : over->time + part * over->step / count;
+        const double low = rc_drop(own, wheel, rc_leading_position(own, over->start, time));
+        const size_t place = k == 0 ? 0 : 2 - k % 2;
+        level[place] = last ? over->rail_end + low : over->rail_start + part * rise + low;
+        lift[place] = last ? over->rise_end : over->rise_start + part * more;
+        if (k == 0 || place != 2)
+            continue;
+        const rc_surface surface = {level[0], level[1], level[2]};
+        if (change != NULL)
+            *change = rc_wheel_change(motion, surface, h, &own->wheel, *change,
+                                      (rc_surface){lift[0], lift[1], lift[2]});
+        motion = rc_move_wheel(motion, surface, h, &own->wheel);
+        level[0] = level[2];
+        lift[0] = lift[2];
+    }
+    return motion;
+}

@@ -1,0 +1,127 @@
+/* Force increments at the end of a step, consistent with the motion that they cause. */
+#include <math.h>
+#include <string.h>
+
+#include "dense.h"
+#include "track.h"
+
+#define RELATIVE_TOLERANCE 1e-13
+#define ABSOLUTE_TOLERANCE 1e-9 /* N */
+#define MOST_SWEEPS 30
+
+/* Deformations at the end of the step under given forces and increments. */
+static void deform(const rc_operator *op, const double *forces, size_t wheels,
+                   const double *increment, double *deformation)
+{
+    const size_t stride = op->active.stride;
+    memcpy(deformation, op->free_active, stride * sizeof(double));
+    rc_add_transformed(deformation, 1.0, op->active_contact, forces, wheels, stride);
+    rc_add_transformed(deformation, -1.0, op->exponential->coupling, increment, op->active.count,
+                       stride);
+}
+
+static void change_rates(const rc_operator *op, const double *forces, size_t wheels,
+                         const double *increment, double *rate)
+{
+    const size_t stride = op->active.stride;
+    memcpy(rate, op->free_rate, stride * sizeof(double));
+    rc_add_transformed(rate, 1.0, op->rate_contact, forces, wheels, stride);
+    rc_add_transformed(rate, -1.0, op->exponential->rate_coupling, increment, op->active.count,
+                       stride);
+}
+
+static void gather(const rc_active *active, const double *all, double *chosen)
+{
+    for (size_t a = 0; a < active->count; ++a)
+        chosen[a] = all[active->number[a]];
+}
+
+/* (1 + k A + d R), whose inverse, transposed, is left in `matrix`. */
+static int invert_jacobian(rc_track *track, const double *stiffness, const double *damping,
+                           double *matrix)
+{
+    const rc_operator *op = &track->operator_;
+    const size_t count = op->active.count, stride = op->active.stride;
+    const double *coupling = op->exponential->coupling, *rates = op->exponential->rate_coupling;
+    memset(matrix, 0, count * stride * sizeof(double));
+    for (size_t b = 0; b < count; ++b) { /* by columns: the transposed matrix by rows */
+        for (size_t a = 0; a < count; ++a)
+            matrix[b * stride + a] = stiffness[a] * coupling[b * stride + a] +
+                                     damping[a] * rates[b * stride + a];
+        matrix[b * stride + b] += 1.0;
+    }
+    return rc_invert(matrix, count, stride, track->pivot);
+}
+
+void rc_linearise_increments(rc_track *track, const rc_track_state *state)
+{
+    rc_operator *op = &track->operator_;
+    const size_t count = op->active.count, stride = op->active.stride;
+    double *increment = track->small, *deformation = increment + stride;
+    double *stiffness = deformation + stride, *damping = stiffness + stride;
+    gather(&op->active, state->increment, increment);
+    deform(op, state->force, track->basis.wheels, increment, deformation);
+    for (size_t a = 0; a < count; ++a) {
+        stiffness[a] = rc_ballast_stiffness(&track->law, deformation[a]);
+        damping[a] = rc_ballast_damping(&track->law, deformation[a]);
+    }
+    if (!invert_jacobian(track, stiffness, damping, op->correction))
+        for (size_t k = 0; k < count * stride; ++k)
+            op->correction[k] = NAN; /* the sweeps will not converge, which is told */
+}
+
+int rc_solve_increments(rc_track *track, const double *forces)
+{
+    rc_operator *op = &track->operator_;
+    const size_t count = op->active.count, stride = op->active.stride;
+    double *increment = op->increment, *deformation = track->small;
+    double *rate = deformation + stride, *change = rate + stride, *defect = change + stride;
+    const rc_track_state start = rc_view_state(&track->basis, op->start);
+    gather(&op->active, start.increment, increment);
+    for (int sweep = 0; count > 0; ++sweep) {
+        deform(op, forces, track->basis.wheels, increment, deformation);
+        change_rates(op, forces, track->basis.wheels, increment, rate);
+        for (size_t a = 0; a < count; ++a)
+            defect[a] = rc_ballast_force(&track->law, deformation[a], rate[a]) - increment[a];
+        rc_transform(change, op->correction, defect, count, stride);
+        double largest = 0.0, largest_change = 0.0;
+        int finite = 1;
+        for (size_t a = 0; a < count; ++a) {
+            increment[a] += change[a];
+            finite &= isfinite(increment[a]) != 0;
+            largest = fmax(largest, fabs(increment[a]));
+            largest_change = fmax(largest_change, fabs(change[a]));
+        }
+        if (!finite || sweep == MOST_SWEEPS - 1)
+            return finite && largest_change <= RELATIVE_TOLERANCE * largest + ABSOLUTE_TOLERANCE;
+        if (largest_change <= RELATIVE_TOLERANCE * largest + ABSOLUTE_TOLERANCE)
+            return 1;
+    }
+    return 1;
+}
+
+
+int rc_change_increments(rc_track *track, const double *forces, const double *force_change,
+                         double *change)
+{
+    const rc_operator *op = &track->operator_;
+    const size_t count = op->active.count, stride = op->active.stride;
+    const size_t wheels = track->basis.wheels;
+    double *deformation = track->small, *rate = deformation + stride;
+    double *tangent = rate + stride, *damping = tangent + stride, *demand = damping + stride;
+    double *matrix = change + stride;
+    deform(op, forces, wheels, op->increment, deformation);
+    change_rates(op, forces, wheels, op->increment, rate);
+    for (size_t a = 0; a < count; ++a) {
+        tangent[a] = rc_ballast_tangent(&track->law, deformation[a], rate[a]);
+        damping[a] = rc_ballast_damping(&track->law, deformation[a]);
+        demand[a] = 0.0;
+        for (size_t j = 0; j < wheels; ++j)
+            demand[a] += (tangent[a] * op->active_contact[j * stride + a] +
+                          damping[a] * op->rate_contact[j * stride + a]) * force_change[j];
+    }
+    if (!invert_jacobian(track, tangent, damping, matrix))
+        return 0;
+    rc_transform(change, matrix, demand, count, stride);
+    return 1;
+}

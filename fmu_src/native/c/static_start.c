@@ -1,0 +1,206 @@
+/* Nonlinear static equilibrium under standing or steadily moving wheels; twin of
+ * track_fmu/static_start.py.
+ *
+ * The modal state follows the moving load quasi-steadily: q = -Q / lambda - Q' / lambda^2.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "dense.h"
+#include "rows.h"
+#include "track.h"
+
+#define MOST_SWEEPS 100
+#define TOLERANCE 1e-12 /* relative change of the force increments */
+
+typedef struct {
+    double *increment, *rate_of_increment; /* the unknowns, (stride) each */
+    double *deformation, *rate, *tangent, *defect, *change, *new_rate;
+    double *residual;    /* (stride): deformation by the contact forces, without modes */
+    double *compliance;  /* (stride, stride), residual flexibility included */
+    double *flexibility; /* (stride, stride), residual only */
+    double *matrix;
+    double *contact_load, *contact_load_rate, *load_rate, *modal_rate; /* rows */
+} equilibrium;
+
+static equilibrium lay_out(rc_track *track)
+{
+    const size_t stride = track->active.stride, square = stride * stride;
+    double *at = track->small, *rows = track->duals; /* of both there is enough */
+    const size_t length = track->basis.length;
+    return (equilibrium){.increment = at,
+                         .rate_of_increment = at + stride,
+                         .deformation = at + 2 * stride,
+                         .rate = at + 3 * stride,
+                         .tangent = at + 4 * stride,
+                         .defect = at + 5 * stride,
+                         .change = at + 6 * stride,
+                         .new_rate = at + 7 * stride,
+                         .residual = at + 8 * stride,
+                         .compliance = track->products,
+                         .flexibility = track->products + square,
+                         .matrix = track->products + 2 * square,
+                         .contact_load = rows,
+                         .contact_load_rate = rows + length,
+                         .load_rate = rows + 2 * length,
+                         .modal_rate = rows + 3 * length};
+}
+
+/* The loads of the wheels: all that does not change from sweep to sweep. */
+static void load_track(rc_track *track, const equilibrium *at, const double *forces)
+{
+    const rc_basis *basis = &track->basis;
+    const size_t stride = track->active.stride, half = basis->half;
+    const double *row = track->row;
+    memset(at->increment, 0, 9 * stride * sizeof(double));
+    memset(at->contact_load, 0, 2 * basis->length * sizeof(double));
+    for (size_t i = 0; i < basis->wheels; ++i) {
+        const rc_rail_point *wheel = &track->points[i];
+        const double rate = track->initial_speed * forces[i];
+        rc_modes_at(basis, wheel, wheel->shape, track->row);
+        rc_add_combination(at->contact_load, &row, &forces[i], 1, basis->length);
+        rc_modes_at(basis, wheel, wheel->slope, track->row);
+        rc_add_combination(at->contact_load_rate, &row, &rate, 1, basis->length);
+        for (size_t a = 0; a < track->active.count; ++a)
+            at->residual[a] +=
+                rc_residual(basis, wheel, rc_ballast(basis, track->active.number[a])) * forces[i];
+    }
+    for (size_t n = 0; n < half; ++n) { /* minus w / lambda */
+        track->row[n] = -basis->weight[n] * basis->inverses[n];
+        track->row[half + n] = -basis->weight[n] * basis->inverses[half + n];
+    }
+    memset(at->flexibility, 0, stride * stride * sizeof(double));
+    rc_add_residual(at->flexibility, &track->active, basis);
+    rc_modal_coupling(at->compliance, &track->active, track->row, half, track->scratch);
+    for (size_t k = 0; k < track->active.count * stride; ++k)
+        at->compliance[k] += at->flexibility[k];
+}
+
+/* Modal state, load and deformations under the present increments. */
+static void deform(rc_track *track, const equilibrium *at, rc_track_state *state)
+{
+    const rc_basis *basis = &track->basis;
+    const rc_active *active = &track->active;
+    const size_t length = basis->length, half = basis->half, count = active->count;
+    double *opposed = at->change; /* free until the next change is known */
+    for (size_t a = 0; a < count; ++a)
+        opposed[a] = -at->increment[a];
+    memcpy(state->load, at->contact_load, length * sizeof(double));
+    rc_add_combination(state->load, active->rows, opposed, count, length);
+    for (size_t a = 0; a < count; ++a)
+        opposed[a] = -at->rate_of_increment[a];
+    memcpy(at->load_rate, at->contact_load_rate, length * sizeof(double));
+    rc_add_combination(at->load_rate, active->rows, opposed, count, length);
+    /* -(Q + Q' / lambda) / lambda */
+    rc_multiply(at->modal_rate, basis->inverses, at->load_rate, half);
+    for (size_t k = 0; k < length; ++k)
+        track->row[k] = -(state->load[k] + at->modal_rate[k]);
+    rc_multiply(state->modal, basis->inverses, track->row, half);
+    /* lambda q + Q */
+    rc_multiply(at->modal_rate, basis->eigenvalues, state->modal, half);
+    for (size_t k = 0; k < length; ++k)
+        at->modal_rate[k] += state->load[k];
+    const double *rows[2] = {track->row, track->other_row};
+    rc_multiply_dual(track->row, track->scratch, state->modal, half);
+    rc_multiply_dual(track->other_row, track->scratch, at->modal_rate, half);
+    for (size_t a = 0; a < count; ++a) {
+        double both[2];
+        rc_products(&active->rows[a], 1, rows, 2, length, both, 2);
+        at->deformation[a] = both[0] + at->residual[a];
+        at->rate[a] = both[1];
+    }
+    rc_add_transformed(at->deformation, -1.0, at->flexibility, at->increment, count,
+                       active->stride);
+}
+
+static double largest(const double *values, size_t count)
+{
+    double found = 0.0;
+    for (size_t a = 0; a < count; ++a)
+        found = isfinite(values[a]) ? fmax(found, fabs(values[a])) : INFINITY;
+    return found;
+}
+
+/* One sweep of Newton's iteration; 1 if it changed next to nothing, -1 if it failed. */
+static int sweep(rc_track *track, const equilibrium *at)
+{
+    const size_t count = track->active.count, stride = track->active.stride;
+    memset(at->matrix, 0, count * stride * sizeof(double));
+    for (size_t a = 0; a < count; ++a) {
+        at->tangent[a] = rc_ballast_stiffness(&track->law, at->deformation[a]);
+        at->defect[a] = rc_ballast_force(&track->law, at->deformation[a], at->rate[a]) -
+                        at->increment[a];
+    }
+    for (size_t b = 0; b < count; ++b) { /* transposed, see rc_transform */
+        for (size_t a = 0; a < count; ++a)
+            at->matrix[b * stride + a] = at->tangent[a] * at->compliance[b * stride + a];
+        at->matrix[b * stride + b] += 1.0;
+    }
+    if (!rc_invert(at->matrix, count, stride, track->pivot))
+        return -1;
+    rc_transform(at->change, at->matrix, at->defect, count, stride);
+    /* the rate with the present increment rate taken out, then solved for both together */
+    rc_add_transformed(at->rate, 1.0, at->compliance, at->rate_of_increment, count, stride);
+    rc_add_transformed(at->rate, -1.0, at->flexibility, at->rate_of_increment, count, stride);
+    for (size_t a = 0; a < count; ++a)
+        at->defect[a] = at->tangent[a] * at->rate[a];
+    rc_transform(at->new_rate, at->matrix, at->defect, count, stride);
+    for (size_t a = 0; a < count; ++a) {
+        at->defect[a] = at->new_rate[a] - at->rate_of_increment[a];
+        at->rate_of_increment[a] = at->new_rate[a];
+        at->increment[a] += at->change[a];
+    }
+    const double scale = TOLERANCE * largest(at->increment, count);
+    const double rate_scale = TOLERANCE * largest(at->rate_of_increment, count) + scale;
+    if (!isfinite(rate_scale))
+        return -1;
+    return largest(at->change, count) <= scale && largest(at->defect, count) <= rate_scale;
+}
+
+/* Displacements of the rail under the wheels. */
+static void press_contacts(rc_track *track, const equilibrium *at, const double *forces,
+                           rc_track_state *state)
+{
+    const rc_basis *basis = &track->basis;
+    rc_multiply_dual(track->other_row, track->scratch, state->modal, basis->half);
+    for (size_t i = 0; i < basis->wheels; ++i) {
+        const rc_rail_point *wheel = &track->points[i];
+        rc_modes_at(basis, wheel, wheel->shape, track->row);
+        double sum = rc_product(track->row, track->other_row, basis->length);
+        for (size_t j = 0; j < basis->wheels; ++j)
+            sum += rc_residual_between(basis, wheel, wheel->shape, &track->points[j],
+                                       track->points[j].shape) * forces[j];
+        for (size_t a = 0; a < track->active.count; ++a)
+            sum -= rc_residual(basis, wheel, rc_ballast(basis, track->active.number[a])) *
+                   at->increment[a];
+        state->displacement[i] = sum;
+    }
+}
+
+int rc_static_start(rc_track *track, rc_track_state *state, const double *forces)
+{
+    const rc_basis *basis = &track->basis;
+    const equilibrium at = lay_out(track);
+    load_track(track, &at, forces);
+    /* the weight as a complex row, for duals: scratch is free again after load_track */
+    memcpy(track->scratch, basis->weight, basis->half * sizeof(double));
+    memset(track->scratch + basis->half, 0, basis->half * sizeof(double));
+    for (int done = 0, left = MOST_SWEEPS; done != 1; --left) {
+        if (left == 0 || done == -1)
+            return 0;
+        deform(track, &at, state);
+        done = track->active.count == 0 ? 1 : sweep(track, &at);
+    }
+    memset(state->increment, 0, 2 * basis->supports * sizeof(double)); /* and their rates */
+    for (size_t a = 0; a < track->active.count; ++a) {
+        state->increment[track->active.number[a]] = at.increment[a];
+        state->increment_rate[track->active.number[a]] = at.rate_of_increment[a];
+    }
+    press_contacts(track, &at, forces, state);
+    for (size_t i = 0; i < basis->wheels; ++i) {
+        state->force[i] = forces[i];
+        state->force_rate[i] = 0.0;
+        state->speed[i] = track->initial_speed;
+    }
+    return 1;
+}

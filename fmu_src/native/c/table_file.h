@@ -1,0 +1,29 @@
+/* Numeric tables of two columns in CSV files; twin of fmu_src/python/tables.py. */
+#ifndef RC_TABLE_FILE_H
+#define RC_TABLE_FILE_H
+
+#include <stddef.h>
+
+typedef struct {
+    double *x, *y; /* free x alone */
+    size_t rows;
+} rc_table;
+
+/* What a table must be. */
+typedef struct {
+    const char *what;        /* "wheel profile" */
+    const char *x_name, *y_name; /* "distance [m]", "drop [m]" */
+    size_t least;            /* number of rows */
+} rc_table_kind;
+
+/* Reads a table and checks that x increases strictly; 0 and a sentence if it cannot be used.
+ *
+ * Values are separated by commas, semicolons or white space, with a decimal point whatever the
+ * locale; empty lines and those that start with # are passed over, one line of names may come
+ * first. */
+int rc_read_table(rc_table *table, const char *path, const rc_table_kind *kind, char *message,
+                  size_t room);
+
+void rc_free_table(rc_table *table);
+
+#endif

@@ -1,0 +1,119 @@
+/* The track as a dynamic model; twin of track_fmu/track_model.py. */
+#ifndef RC_TRACK_H
+#define RC_TRACK_H
+
+#include "basis.h"
+#include "exponential.h"
+#include "rail_point.h"
+#include "supports.h"
+
+#define RC_LONGEST_STEP 5e-4 /* s; longer ones are divided */
+
+/* Where the dynamic values of a state are; twin of track_fmu/track_state.py. */
+typedef struct {
+    double *position, *speed, *force, *force_rate, *displacement; /* (wheels) */
+    double *increment, *increment_rate;                           /* (supports), of the ballast */
+    double *modal, *load;                                         /* rows */
+} rc_track_state;
+
+/* One step to given wheel positions, for any contact forces; twin of track_fmu/step_operator.py.
+ * Matrices per contact force or per increment hold a column as one line of `stride` numbers. */
+typedef struct {
+    int made, linear;
+    double step;
+    double *start;    /* dynamic values at its beginning */
+    double *position; /* (wheels), at its end */
+    rc_rail_point *wheels;
+    rc_active active;
+    const rc_exponential *exponential;
+    double *contact;          /* (wheels) rows: modal displacement at the wheels */
+    const double **contacts;  /* the same, one by one */
+    double *free;             /* row: modal state without forces at the end */
+    double *free_contact, *contact_contact; /* (wheels), (wheels, wheels) */
+    double *free_active, *free_rate;        /* (stride) */
+    double *active_contact, *rate_contact;  /* (wheels, stride): per contact force */
+    double *contact_active;                 /* (wheels, stride): per increment */
+    double *correction;                     /* (stride, stride) */
+    double *increment;                      /* (stride), of the step applied last */
+} rc_operator;
+
+typedef struct {
+    rc_basis basis;
+    rc_ballast_law law;
+    int state_dependent;
+    int linear; /* of the last step */
+    size_t per_wheel;
+    double initial_speed;
+    rc_rail_point *gauges, *points; /* (gauges), (wheels) */
+    rc_exponentials exponentials;
+    rc_operator operator_;
+    rc_active active;
+    size_t *first, *pivot;
+    double *duals;               /* (2 + 3 wheels) rows */
+    const double **dual_rows;
+    double *products, *scratch, *small; /* see the functions that use them */
+    double *row, *other_row;
+    double *before;              /* dynamic values at the beginning of a divided step */
+    double *after, *change;      /* dynamic values, where derivatives are worked out */
+    double *position, *force;    /* (wheels): within a divided step */
+    double *moved, *pressed;     /* (wheels): inputs beside those of the last step */
+    double last_step;
+    void *memory;
+} rc_track;
+
+rc_track_state rc_view_state(const rc_basis *basis, double *values);
+size_t rc_count_state(const rc_basis *basis);
+
+/* Claims what the parameters ask for. */
+rc_status rc_claim_track(rc_model *model, rc_track *track);
+void rc_release_track(rc_track *track);
+
+/* Chooses the active supports for wheels at these positions. */
+void rc_choose_supports(rc_track *track, const double *positions);
+
+/* Nonlinear static equilibrium under wheels at track->points; twin of static_start.py. 0 if it is
+ * not found. */
+int rc_static_start(rc_track *track, rc_track_state *state, const double *forces);
+
+/* Makes the operator of a step unless it is made already. */
+void rc_prepare_operator(rc_track *track, const double *dynamic, double step, int linear,
+                         const double *positions);
+
+/* The Jacobian of the increments' equation at the forces of the step's start: it depends on
+ * nothing but the state, so that a repeated step is the same bit for bit. */
+void rc_linearise_increments(rc_track *track, const rc_track_state *state);
+
+/* Leaves in the operator the increments that are consistent with the motion they cause, by
+ * Newton's iteration with that Jacobian; 0 if it does not converge. */
+int rc_solve_increments(rc_track *track, const double *forces);
+
+/* What a change of the forces changes in the increments found last; there must be room for the
+ * Jacobian behind `change`, which track->products has. 0 if it is singular. */
+int rc_change_increments(rc_track *track, const double *forces, const double *force_change,
+                         double *change);
+
+/* Makes modal loads and displacements follow positions and forces that have jumped; the wheels are
+ * at track->points. */
+void rc_load_track(rc_track *track, rc_track_state *state);
+
+/* Moves the state to the end of the step; 0 if the increments do not converge. */
+int rc_apply_operator(rc_track *track, rc_track_state *state, const double *forces);
+
+/* Its derivative: what a change of the contact forces changes in the state. */
+int rc_differentiate_operator(rc_track *track, const double *force_change, rc_track_state *change);
+
+/* Into how many parts a step is divided. */
+double rc_count_parts(double step);
+
+/* One step to positions and forces, divided where it is long; 0 if the increments do not converge,
+ * the dynamic values being as before. */
+int rc_advance_track(rc_track *track, double *dynamic, double step, const double *positions,
+                     const double *forces);
+
+/* Says that a position is not on the track. */
+rc_status rc_refuse_position(rc_model *model, rc_status status, double position);
+
+/* See rc_class. */
+rc_status rc_derive_track(rc_model *model, const double *seed, double *changes);
+
+#endif

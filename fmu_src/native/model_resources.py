@@ -1,0 +1,115 @@
+"""Resources of the native models: the numpy model's basis and the start values of the variables."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fmu_src.python.basis_cache import cached_basis
+from fmu_src.python.model_slave import LINEAR_INPUTS
+from fmu_src.python.track_variables import TABLE_1, declare_track
+from fmu_src.python.vehicle_variables import declare_vehicle
+from track_fmu.assembly import assemble
+from track_fmu.beam_element import FloatArray, shear_parameter
+from track_fmu.eigensolver import ComplexArray
+from track_fmu.parameters import TrackParameters
+from track_fmu.reduction import ReducedTrack, reduce_track
+
+from .resource import Section, pack, start_values
+
+LANES = 8  # RC_LANES of c/rows.h
+
+
+def track_resource(
+    parameters: TrackParameters,
+    *,
+    wheels: int,
+    gauges: int,
+    mode_pairs: int,
+    residual_flexibility: bool = True,
+) -> bytes:
+    """Resource of a track, whose modes are computed or taken from the cache.
+
+    Parameters
+    ----------
+    parameters : TrackParameters
+        The linear track; fixed in the FMU.
+    wheels, gauges : int
+        Number of wheels and of bending moment gauges.
+    mode_pairs : int
+        Retained pairs of modes; fixed in the FMU.
+    residual_flexibility : bool
+        Whether the quasi-static part of the other modes is accounted for; fixed in the FMU.
+    """
+    matrices = assemble(parameters)
+    basis = cached_basis(parameters, matrices, mode_pairs=mode_pairs)
+    reduced = reduce_track(parameters, matrices, basis, residual_flexibility=residual_flexibility)
+    variables = [*declare_track(parameters, wheels=wheels, gauges=gauges), LINEAR_INPUTS]
+    fixed = {name: asdict(parameters)[name] for name, _, _ in TABLE_1}
+    fixed |= {"mode_pairs": mode_pairs, "residual_flexibility": residual_flexibility}
+    half = _filled(len(reduced.eigenvalues))
+    sections: dict[str, Section] = {
+        "model": b"Track",
+        "structure": np.array(
+            [
+                *(wheels, gauges, parameters.bays, parameters.elements_per_bay),
+                *(len(reduced.eigenvalues), half),
+            ],
+            dtype=np.int64,
+        ),
+        "numbers": _numbers(parameters),
+    }
+    return pack(sections | _modes(reduced, half) | start_values(variables, fixed))
+
+
+def vehicle_resource(*, wheels: int) -> bytes:
+    """Resource of a vehicle; all of its parameters stay parameters of the FMU."""
+    variables = [*declare_vehicle(wheels), LINEAR_INPUTS]
+    sections: dict[str, Section] = {
+        "model": b"Vehicle",
+        "structure": np.array([wheels], dtype=np.int64),
+    }
+    return pack(sections | start_values(variables, {}))
+
+
+def _numbers(parameters: TrackParameters) -> FloatArray:
+    return np.array(
+        [
+            parameters.sleeper_spacing,
+            shear_parameter(parameters.section, parameters.element_length),
+            parameters.pad_stiffness,
+            parameters.pad_damping,
+            parameters.ballast_stiffness,
+            parameters.ballast_damping,
+        ]
+    )
+
+
+def _modes(reduced: ReducedTrack, half: int) -> dict[str, Section]:
+    """The reduced track, rows of modes split and filled up."""
+    weight = np.zeros(half)
+    weight[: len(reduced.weight)] = reduced.weight
+    return {
+        "eigenvalues": _rows(reduced.eigenvalues, half),
+        "inverses": _rows(1.0 / reduced.eigenvalues, half),
+        "weight": weight,
+        "shape": _rows(reduced.shape, half),
+        "moment_shape": _rows(reduced.moment_shape, half),
+        "flexibility": reduced.flexibility,
+        "moment_flexibility": reduced.moment_flexibility,
+    }
+
+
+def _rows(values: ComplexArray, half: int) -> NDArray[np.float64]:
+    """Real parts, then imaginary parts, each filled with zeros; shape (..., 2 half)."""
+    modes = values.shape[-1]
+    rows = np.zeros((*values.shape[:-1], 2 * half))
+    rows[..., :modes] = values.real
+    rows[..., half : half + modes] = values.imag
+    return rows
+
+
+def _filled(modes: int) -> int:
+    return -(-modes // LANES) * LANES

@@ -1,0 +1,46 @@
+"""Flat, irregularity and speed from the parameters of an FMU; tables are read from their files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, cast
+
+from vehicle_fmu.irregularity import RailIrregularity
+from vehicle_fmu.parameters import FlatParameters, FlatShape
+from vehicle_fmu.speed import ConstantSpeed, SpeedTable
+from vehicle_fmu.wheel_profile import WheelProfileTable
+
+from .tables import read_table
+from .vehicle_variables import FLAT
+
+
+def make_flat(parameters: Mapping[str, Any]) -> tuple[FlatParameters, WheelProfileTable | None]:
+    """Flat of the given parameters, with the table of a measured one."""
+    shape, table = _flat_shape(parameters["flat.shape"])
+    values = {name: parameters[f"flat.{name}"] for name, _, _ in FLAT}
+    return FlatParameters(shape=shape, **values), table
+
+
+def speed_law(parameters: Mapping[str, Any]) -> ConstantSpeed | SpeedTable:
+    """Constant speed, or that of a table."""
+    path = parameters["speed_table"]
+    if not path:
+        return ConstantSpeed(speed=parameters["speed"])
+    columns = read_table(path, ("time", "speed"))
+    return SpeedTable(time=columns["time"], speed=columns["speed"])
+
+
+def irregularity(path: str) -> RailIrregularity | None:
+    """Irregularity of the railhead from a table; none without a path."""
+    if not path:
+        return None
+    columns = read_table(path, ("position", "drop"))
+    return RailIrregularity(position=columns["position"], drop=columns["drop"])
+
+
+def _flat_shape(shape: str) -> tuple[FlatShape, WheelProfileTable | None]:
+    """Shape of the flat; a file name stands for a measured profile."""
+    if not shape.lower().endswith(".csv"):
+        return cast("FlatShape", shape), None  # the parameters check it
+    columns = read_table(shape, ("distance", "drop"))
+    return "table", WheelProfileTable(distance=columns["distance"], drop=columns["drop"])

@@ -1,0 +1,82 @@
+"""Variables of the FMU of wheel masses whose contacts are elsewhere."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from vehicle_fmu.parameters import VehicleParameters
+
+from .model_slave import LINEAR_INPUTS
+from .variables import Variable
+from .vehicle_variables import speed_parameters, vehicle_parameters
+
+INPUT_TIME = replace(
+    LINEAR_INPUTS,
+    description="Whether an input set before a step is its value at the end of the step, reached "
+    "on a straight line from the last one (for hosts that step the track first); false: it is the "
+    "value at the start of the step, continued on the last straight line until the next one",
+)
+
+
+def declare_masses(wheels: int) -> list[Variable]:
+    """Variables of an FMU of the given number of wheel masses."""
+    return [
+        *speed_parameters(),
+        *vehicle_parameters("wheel_mass", "static_wheel_load", "initial_position"),
+        *_offsets(wheels),
+        *_inputs(wheels),
+        *_outputs(wheels),
+        INPUT_TIME,
+    ]
+
+
+def _offsets(wheels: int) -> list[Variable]:
+    return [
+        Variable(
+            name=f"wheel[{i + 1}].offset",
+            causality="parameter",
+            unit="m",
+            start=i * VehicleParameters().axle_base,
+            description=f"Distance of wheel {i + 1} behind wheel 1, the leading one",
+        )
+        for i in range(1, wheels)
+    ]
+
+
+def _inputs(wheels: int) -> list[Variable]:
+    return [
+        Variable(
+            name=f"wheel[{i + 1}].contact_force",
+            causality="input",
+            group="contact_force",
+            index=i,
+            unit="N",
+            nominal=1e5,
+            minimum=0.0,
+            start=VehicleParameters().static_wheel_load,
+            description=f"Contact force of the rail on wheel {i + 1}, compression positive",
+        )
+        for i in range(wheels)
+    ]
+
+
+def _outputs(wheels: int) -> list[Variable]:
+    kinds = (
+        ("position", "m", 1.0, "Track position of wheel {}"),
+        ("displacement", "m", 1e-3,
+         "Displacement of wheel {} from its static equilibrium, downwards positive"),
+        ("velocity", "m/s", 1e-1, "Velocity of wheel {}, downwards positive"),
+    )  # fmt: skip
+    return [
+        Variable(
+            name=f"wheel[{i + 1}].{name}",
+            causality="output",
+            group=name,
+            index=i,
+            unit=unit,
+            nominal=nominal,
+            description=description.format(i + 1),
+        )
+        for name, unit, nominal, description in kinds
+        for i in range(wheels)
+    ]

@@ -1,0 +1,65 @@
+import pytest
+
+from fmu_src.native.compiler import TARGETS, compile_library, this_target
+from fmu_src.native.model_resources import track_resource, vehicle_resource
+from track_fmu.parameters import TrackParameters
+
+from .library import NativeModel, load
+from .twins import TrackPair, VehiclePair
+
+
+@pytest.fixture(scope="session")
+def libraries(tmp_path_factory):
+    """Both libraries, compiled for this machine."""
+    folder = tmp_path_factory.mktemp("native")
+    loaded = {}
+    for model in ("track", "vehicle"):
+        path = folder / f"{model}{TARGETS[this_target()].suffix}"
+        path.write_bytes(compile_library(model, this_target(), name=model))
+        loaded[model] = load(path)
+    return loaded
+
+
+@pytest.fixture(scope="session")
+def short_track():
+    """Twelve bays with four elements each: the same physics at a tenth of the cost."""
+    return TrackParameters(bays=12, elements_per_bay=4)
+
+
+@pytest.fixture(scope="session")
+def resources(short_track):
+    return {
+        "track": track_resource(short_track, wheels=2, gauges=2, mode_pairs=36),
+        "vehicle": vehicle_resource(wheels=2),
+    }
+
+
+@pytest.fixture
+def native(libraries, resources):
+    """Makes instances with parameters set, and frees them at the end."""
+    opened = []
+
+    def make(model, resource=None, **values):
+        opened.append(NativeModel(libraries[model], resource or resources[model]))
+        opened[-1].set(**values)
+        return opened[-1]
+
+    yield make
+    for instance in opened:
+        instance.close()
+
+
+@pytest.fixture
+def track_pair(native):
+    def make(parameters, resource=None, **options):
+        return TrackPair(native, parameters, resource, **options)
+
+    return make
+
+
+@pytest.fixture
+def vehicle_pair(native):
+    def make(**options):
+        return VehiclePair(native, **options)
+
+    return make

@@ -1,0 +1,179 @@
+"""A numpy model and its native twin, with the same parameters, states and inputs."""
+
+from functools import lru_cache
+
+import numpy as np
+
+from fmu_src.python.basis_cache import cached_basis
+from fmu_src.python.vehicle_slave import VehicleSlave
+from track_fmu.assembly import assemble
+from track_fmu.ballast import PolynomialBallast
+from track_fmu.reduction import reduce_track
+from track_fmu.track_model import TrackModel, TrackOptions
+
+from .library import BOOLEAN, INTEGER
+
+LANES = 8  # modes are filled up to a multiple of it
+TRACK_GROUPS = {
+    "rail_displacement": "wheel[#].rail_displacement",
+    "rail_velocity": "wheel[#].rail_velocity",
+    "wheel_moment": "wheel[#].bending_moment",
+    "gauge_moment": "gauge[#].bending_moment",
+    "sleeper_displacement": "sleeper[#].displacement",
+    "pad_force": "pad[#].force",
+    "ballast_force": "ballast[#].force",
+}
+VEHICLE_GROUPS = ("position", "contact_force", "displacement", "velocity", "gap")
+AGREEMENT = 1e-12  # of the largest value of an array
+ORDER = {"rail_velocity": 0.1, "gap": 1e-3, "contact_force": 1e5, "velocity": 0.1}
+"""What differences are compared with where the values are smaller, as those of a track at rest."""
+
+
+def assert_alike(rows, *, relative=AGREEMENT):
+    """Every array differs from its twin by a fraction of its largest value at most."""
+    for name, expected, found in rows:
+        assert np.isfinite(expected).all(), name
+        limit = relative * max(np.max(np.abs(expected)), ORDER.get(name, 0.0))
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=limit, err_msg=name)
+
+
+@lru_cache(maxsize=4)
+def reduced_track(parameters, mode_pairs, *, residual_flexibility=True):
+    matrices = assemble(parameters)
+    basis = cached_basis(parameters, matrices, mode_pairs=mode_pairs)
+    return reduce_track(parameters, matrices, basis, residual_flexibility=residual_flexibility)
+
+
+class TrackPair:
+    """Both tracks."""
+
+    def __init__(
+        self,
+        native,
+        parameters,
+        resource=None,
+        *,
+        linear=True,
+        speed=0.0,
+        ballast="state_dependent",
+        supports=6,
+        gauge=None,
+    ):
+        self.native = native(
+            "track",
+            resource,
+            linear_inputs=linear,
+            initial_speed=speed,
+            ballast=ballast,
+            supports_per_wheel=supports,
+        )
+        if gauge is not None:
+            self.native.set_one("gauge[1].position", gauge)
+        self.linear = linear
+        self.parameters = parameters
+        self.wheels = len(self.native.group("wheel[#].position"))
+        law = PolynomialBallast(tau=parameters.ballast_damping / parameters.ballast_stiffness)
+        self.reduced = reduced_track(
+            parameters,
+            int(self.native.get(["mode_pairs"], INTEGER)[0]),
+            residual_flexibility=bool(self.native.get(["residual_flexibility"], BOOLEAN)[0]),
+        )
+        self.numpy = TrackModel(
+            self.reduced,
+            TrackOptions(
+                wheels=self.wheels,
+                supports_per_wheel=supports,
+                initial_speed=speed,
+                gauges=tuple(self.native.group("gauge[#].position")),
+            ),
+            ballast=law if ballast == "state_dependent" else None,
+        )
+
+    def start(self, positions, forces):
+        self.native.enter()
+        self.set(positions, forces)
+        self.native.exit()
+        self.numpy.start(positions, forces)
+
+    def step(self, step_size, positions, forces):
+        self.set(positions, forces)
+        self.native.step(self.native.time, step_size)
+        self.numpy.step(step_size, positions, forces, linear=self.linear)
+
+    def set(self, positions, forces):
+        self.native.set_group("wheel[#].position", positions)
+        self.native.set_group("wheel[#].contact_force", forces)
+
+    def outputs(self):
+        """Name, numpy's and the native values of all outputs."""
+        seen = self.numpy.observe()
+        for name, group in TRACK_GROUPS.items():
+            model = self.numpy if name == "rail_displacement" else seen
+            yield name, getattr(model, name), self.native.group(group)
+
+    def copy_state(self, flat):
+        """Set a flat state of the numpy model in both."""
+        self.numpy.state = flat
+        own = self._to_native(flat)
+        block = self.native.state
+        block[-len(own) :] = own
+        self.native.state = block
+
+    def states(self):
+        """Numpy's state as the native one has it, and the native one; names and values."""
+        lengths = [self.wheels] * 5 + [self.parameters.supports] * 2 + [2 * self._half] * 2
+        names = ("position", "speed", "force", "force_rate", "displacement", "increment",
+                 "increment_rate", "modal", "load")  # fmt: skip
+        places = np.cumsum(lengths)[:-1]
+        own = self._to_native(self.numpy.state)
+        expected, found = np.split(own, places), np.split(self.native.state[-len(own) :], places)
+        return zip(names, expected, found, strict=True)
+
+    @property
+    def _half(self):
+        return -(-len(self.reduced.eigenvalues) // LANES) * LANES
+
+    def _to_native(self, flat):
+        """Ballast increments without those of pads; modes split and filled up."""
+        supports, modes = self.parameters.supports, len(self.reduced.eigenvalues)
+        lengths = [5 * self.wheels, 2 * supports, 2 * supports, 2 * modes]
+        wheels, increment, rate, modal, load = np.split(flat, np.cumsum(lengths))
+        rows = np.zeros((4, self._half))
+        rows[:, :modes] = modal[::2], modal[1::2], load[::2], load[1::2]
+        return np.concatenate([wheels, increment[:supports], rate[:supports], rows.ravel()])
+
+
+class VehiclePair:
+    """Both vehicles; the numpy one is made as the Python FMU makes it."""
+
+    def __init__(self, native, *, linear=True, values=()):
+        self.linear = linear
+        self.native = native("vehicle", linear_inputs=linear)
+        slave = VehicleSlave(instance_name="twin")
+        parameters = slave._parameters | dict(values)
+        for name, value in dict(values).items():
+            self.native.set_one(name, value)
+        self.numpy = slave.make_model(parameters)
+
+    def start(self, time, rail):
+        self.native.enter(time)
+        self.native.set_group("wheel[#].rail_displacement", rail)
+        self.native.exit()
+        self.numpy.initialise(time, rail)
+
+    def step(self, step_size, rail):
+        self.native.set_group("wheel[#].rail_displacement", rail)
+        time = self.native.time
+        self.native.step(time, step_size)
+        self.numpy.step(time, step_size, rail, linear=self.linear)
+
+    def copy_state(self, state):
+        self.numpy.state = state
+        block = self.native.state
+        block[-len(state) :] = state
+        block[0] = state[1]
+        self.native.state = block
+
+    def outputs(self):
+        for name in VEHICLE_GROUPS:
+            yield name, getattr(self.numpy, name), self.native.group(f"wheel[#].{name}")

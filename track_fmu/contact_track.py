@@ -1,0 +1,237 @@
+"""The track with the contacts on its side: wheel positions and displacements in, forces out."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .beam_element import FloatArray
+from .contact_law import ContactLaw, Surface
+from .contact_point import locate
+from .contact_solution import solve_contact
+from .contact_state import ContactState
+from .continuation import begin, continued, remember
+from .observation import Observation
+from .track_model import TrackModel
+
+LONGEST_PART = 2e-4  # s; beyond it the contact forces on straight lines resolve no strike
+
+
+class ContactTrack:
+    """A track that finds the contact forces of its wheels itself, implicitly in every step.
+
+    A compression is the displacement of a wheel less that of the rail and less the drops of tread
+    and railhead. Displacements count from those at the start, where every wheel rests in static
+    equilibrium, whatever they are there: a vehicle need not know how deep its wheels stand.
+
+    Parameters
+    ----------
+    track : TrackModel
+        The track, which is from then on driven from here alone.
+    law : ContactLaw
+        Contact force over compression.
+    surface : Surface
+        Drops of tread and railhead.
+    static_load : float
+        Contact force of every wheel at the start [N], at least 0.
+
+    Raises
+    ------
+    ValueError
+        If the load is not a number of at least 0.
+    """
+
+    def __init__(
+        self, track: TrackModel, *, law: ContactLaw, surface: Surface, static_load: float
+    ) -> None:
+        if not (math.isfinite(static_load) and static_load >= 0.0):
+            raise ValueError(
+                f"track: static_wheel_load = {static_load!r} N must be a finite number, at least 0"
+            )
+        self._track, self._law, self._surface = track, law, surface
+        self._static_load = static_load
+        self._own = ContactState(wheels=track.options.wheels)
+
+    @property
+    def state(self) -> FloatArray:
+        """Copy of the complete state; assigning one back restores the model bit for bit."""
+        return np.concatenate((self._track.state, self._own.flat))
+
+    @state.setter
+    def state(self, saved: FloatArray) -> None:
+        own = self._own.flat
+        self._track.state = saved[: -own.size]
+        own[:] = saved[-own.size :]
+
+    @property
+    def contact_force(self) -> FloatArray:
+        """Contact forces [N], compression positive, shape (wheels,)."""
+        return self._track.contact_force
+
+    @property
+    def contact_force_ahead(self) -> FloatArray:
+        """Contact forces in the middle of a next step like the last one, expected [N], (wheels,).
+
+        What a vehicle should be given that holds its inputs over a step.
+        """
+        return self._own.ahead.copy()
+
+    @property
+    def gap(self) -> FloatArray:
+        """Gap between each wheel and the rail [m], minus the compression, shape (wheels,)."""
+        return -self._own.compression
+
+    @property
+    def in_contact(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+        """Whether each wheel presses on the rail, shape (wheels,)."""
+        return np.asarray(self._own.compression > 0.0)
+
+    @property
+    def rail_displacement(self) -> FloatArray:
+        """Rail displacement under each wheel [m], shape (wheels,)."""
+        return self._track.rail_displacement
+
+    @property
+    def static_displacement(self) -> FloatArray:
+        """What a displacement of a wheel counts from: add it for that from the unloaded rail [m].
+
+        Its displacement in the static equilibrium less the one that was given there, (wheels,).
+        """
+        return self._own.origin.copy()
+
+    def observe(self) -> Observation:
+        """Displacements, forces and bending moments of the track in the present state."""
+        return self._track.observe()
+
+    def start(self, positions: FloatArray, displacements: FloatArray) -> None:
+        """Set the static equilibrium under the static loads.
+
+        Parameters
+        ----------
+        positions, displacements : (wheels,) float array
+            Of the wheels [m]; the displacements are what later ones count from.
+
+        Raises
+        ------
+        ValueError
+            If a wheel is not on the track or a displacement is not a number.
+        RuntimeError
+            If the equilibrium is not found.
+        """
+        _check_displacements(displacements)
+        own, loads = self._own, np.full(len(positions), self._static_load)
+        self._track.start(positions, loads)
+        own.compression[:] = self._law.compression(loads)
+        own.origin[:] = self._track.rail_displacement + self._surface.drops(positions)
+        own.origin += own.compression - displacements
+        own.ahead[:] = loads
+        own.passed[0] = 0.0
+        self._begin(np.concatenate((positions, displacements)))
+
+    def doubts(self, step_size: float, positions: FloatArray) -> list[str]:
+        """What is doubtful about a first step of given start values, a sentence each."""
+        own = self._own
+        found: list[str] = []
+        if own.passed[0] > 0.0:
+            return found
+        if step_size > LONGEST_PART * (1.0 + 1e-9):
+            found.append(
+                f"steps of {step_size:.6g} s are too long for values that are known at their start "
+                f"only: use {LONGEST_PART:g} s or less"
+            )
+        if not np.array_equal(own.history[0, : len(positions)], positions):
+            found.append(
+                f"at the start of the first step wheel 1 is at {positions[0]:.9g} m, at the static "
+                f"start it was at {own.history[0, 0]:.9g} m: set linear_inputs = true in a host "
+                "that steps the vehicle first, or the start values of the positions in one that "
+                "connects nothing before the first step"
+            )
+        return found
+
+    def step(
+        self,
+        step_size: float,
+        positions: FloatArray,
+        displacements: FloatArray,
+        *,
+        linear: bool,
+    ) -> None:
+        """Advance by one step, in parts of `LONGEST_PART` at most.
+
+        Parameters
+        ----------
+        step_size : float
+            Any positive duration [s].
+        positions, displacements : (wheels,) float array
+            Of the wheels [m]: at the end of the step, reached on straight lines from the last
+            ones (``linear``), or at its start, continued on the parabola through the last three.
+        linear : bool
+            Which of the two.
+
+        Raises
+        ------
+        ValueError
+            If the step is not positive, a wheel leaves the track or an input is not a number.
+        RuntimeError
+            If the forces do not converge. The state is then unchanged.
+        """
+        if not (math.isfinite(step_size) and step_size > 0.0):
+            raise ValueError(f"track: step size {step_size!r} s must be greater than 0")
+        _check_displacements(displacements)
+        for position in positions:
+            locate(self._track.track.parameters, float(position))
+        own, before = self._own, self.state
+        given = np.concatenate((positions, displacements))
+        parts = max(1, math.ceil(step_size / LONGEST_PART - 1e-9))
+        force = self.contact_force
+        if own.passed[0] > 0.0:
+            remember(own.history, own.ages, given, float(own.passed[0]))
+        elif not linear and not np.array_equal(given, own.history[0]):
+            self._begin(given)
+        try:
+            for part in range(1, parts + 1):
+                share = part / parts
+                if linear:
+                    wheels = own.history[0] + share * (given - own.history[0])
+                else:
+                    wheels = continued(own.history, own.ages, share * step_size)
+                ahead, down = np.split(wheels, 2)
+                # what is continued may lead a little beyond the track at its ends
+                ahead = np.clip(ahead, 0.0, self._track.track.parameters.length)
+                self._advance(step_size / parts, ahead, down)
+        except (ValueError, RuntimeError):
+            self.state = before
+            raise
+        if linear:
+            own.history[0] = given
+        own.passed[0] = 0.0 if linear else step_size
+        own.ahead[:] = np.maximum(1.5 * self.contact_force - 0.5 * force, 0.0)
+
+    def _begin(self, given: FloatArray) -> None:
+        """Continue from given positions and displacements as if nothing had been given before."""
+        rate = np.zeros_like(given)
+        rate[: len(given) // 2] = self._track.options.initial_speed
+        begin(self._own.history, self._own.ages, given, rate=rate, age=LONGEST_PART)
+
+    def _advance(self, step_size: float, positions: FloatArray, displacements: FloatArray) -> None:
+        """Advance by one part, to given positions and displacements at its end."""
+        own = self._own
+        operator = self._track.step_operator(step_size, positions, linear=True)
+        solution = solve_contact(
+            operator,
+            self._law,
+            level=displacements + own.origin - self._surface.drops(positions),
+            compression=own.compression,
+        )
+        self._track.move(operator, solution.force, solution.increment)
+        own.compression[:] = solution.compression
+
+
+def _check_displacements(displacements: FloatArray) -> None:
+    for number, displacement in enumerate(displacements, start=1):
+        if not math.isfinite(displacement):
+            raise ValueError(
+                f"track: displacement {float(displacement)!r} m of wheel {number} must be a finite "
+                "number; look for the cause in the vehicle"
+            )
