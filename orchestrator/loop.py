@@ -10,7 +10,7 @@ from .block import Block
 from .clock import Clock, Step
 from .coupling import Coupling
 from .decision import Accept
-from .errors import ParticipantError, RunError
+from .errors import ParticipantError, RunError, WiringError
 from .events import Switches
 from .exchange import Exchange
 from .interrupt import Interrupt
@@ -217,9 +217,18 @@ class Loop:
 
         Raises
         ------
+        WiringError
+            When it is not an attempt of this system.
         ParticipantError
             When a participant died in it.
         """
+        expected = len(self._exchange.value_names), len(self._switches.names)
+        found = attempt.values.size, len(attempt.indicators)
+        if found != expected or (attempt.slope is not None and attempt.slope.size != found[0]):
+            raise WiringError(
+                f"the attempt has {found[0]} exchanged values and {found[1]} indicators, the "
+                f"system {expected[0]} and {expected[1]}: it belongs to another one."
+            )
         for stage in self._exchange.stages:
             stage.resume(attempt.states[stage.participant.name])
         self._attempts.history.resume(attempt.values, attempt.slope)
