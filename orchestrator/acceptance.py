@@ -16,6 +16,7 @@ from .observation import Observation
 from .stage import Stage
 from .step_control import StepController
 from .step_log import StepLog
+from .value_watch import ValueWatch
 
 
 class Acceptance:
@@ -49,6 +50,8 @@ class Acceptance:
         Repeats the step, if the settings want it.
     log : StepLog
         One row per attempt.
+    watch : ValueWatch
+        Looks at the accepted values.
     """
 
     def __init__(
@@ -67,6 +70,7 @@ class Acceptance:
         ledger: Ledger | None,
         audit: Audit | None,
         log: StepLog,
+        watch: ValueWatch,
     ) -> None:
         self._attempts = attempts
         self._history = attempts.history
@@ -83,6 +87,7 @@ class Acceptance:
         self._ledger = ledger
         self._audit = audit
         self._log = log
+        self._watch = watch
 
     def accept(self, step: Step, candidate: Candidate, decision: Accept) -> float:
         """Move on to the end of an attempt, and return the size wanted for the next one [s].
@@ -105,6 +110,7 @@ class Acceptance:
         self._clock.advance(step)
         outputs = self._exchange.outputs
         values = outputs[self._exchange.value_places]
+        self._watch.accept(values, self._history.last)
         wanted = decision.next_step
         finding = candidate.finding
         if self._ledger is not None:

@@ -10,7 +10,7 @@ from .block import Block
 from .clock import Clock, Step
 from .coupling import Coupling
 from .decision import Accept
-from .errors import ParticipantError, RunError
+from .errors import ParticipantError, RunError, WiringError
 from .events import Switches
 from .exchange import Exchange
 from .interrupt import Interrupt
@@ -23,6 +23,7 @@ from .rejection import Rejection
 from .settings import MasterSettings
 from .step_control import StepController
 from .step_log import StepLog
+from .value_watch import ValueWatch
 
 
 class Loop:
@@ -61,6 +62,8 @@ class Loop:
         Those whose states are saved at every accepted point.
     log : StepLog
         One row per attempt so far.
+    watch : ValueWatch
+        Looks at the accepted values.
     """
 
     def __init__(
@@ -102,6 +105,9 @@ class Loop:
                 tolerance=settings.tolerance if controller.uses_error else None,
             )
         self.log = StepLog()
+        controlled = settings.tolerance if controller.uses_error else None
+        iterated = settings.coupling_tolerance if coupling.iterates else None
+        self.watch = ValueWatch(exchange, controlled=controlled, resolved=controlled or iterated)
         self._attempts = Attempts(
             exchange=exchange,
             coupling=coupling,
@@ -125,6 +131,7 @@ class Loop:
             ledger=ledger,
             audit=self.audit,
             log=self.log,
+            watch=self.watch,
         )
         self._rejection = Rejection(
             attempts=self._attempts,
@@ -210,9 +217,18 @@ class Loop:
 
         Raises
         ------
+        WiringError
+            When it is not an attempt of this system.
         ParticipantError
             When a participant died in it.
         """
+        expected = len(self._exchange.value_names), len(self._switches.names)
+        found = attempt.values.size, len(attempt.indicators)
+        if found != expected or (attempt.slope is not None and attempt.slope.size != found[0]):
+            raise WiringError(
+                f"the attempt has {found[0]} exchanged values and {found[1]} indicators, the "
+                f"system {expected[0]} and {expected[1]}: it belongs to another one."
+            )
         for stage in self._exchange.stages:
             stage.resume(attempt.states[stage.participant.name])
         self._attempts.history.resume(attempt.values, attempt.slope)

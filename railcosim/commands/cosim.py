@@ -17,6 +17,7 @@ from ..output import write_dataset
 from ..progress import progress_bar
 from .endings import check_result, exit_codes, keeping, say
 from .options import Isolate, Output, Quiet, Replay, Timeout, check_output, replay_file, time_limit
+from .stdout import stdout_for_results
 
 
 class AlgorithmName(StrEnum):
@@ -86,7 +87,7 @@ def cosim(
             events=tuple(event or ()),
         )
         check_output(output)
-        with keeping(output):
+        with keeping(output), stdout_for_results():
             result = _followed_cosim(
                 system,
                 options,

@@ -14,6 +14,7 @@ from orchestrator.replay import open_replay, repeat
 from ..errors import InputError, RunError
 from ..repetition_report import repetition_numbers, repetition_table
 from .endings import exit_codes
+from .stdout import stdout_for_results
 
 
 def replay(
@@ -26,7 +27,7 @@ def replay(
     """Repeat how a run failed; exit code 0 if it fails in the same way."""
     with exit_codes(), threadpool_limits(limits=1, user_api="blas"):
         try:
-            with open_replay(file) as case:
+            with open_replay(file) as case, stdout_for_results():
                 repetition = repeat(case)
         except orchestrator.InputError as error:
             raise InputError(str(error)) from error

@@ -21,6 +21,7 @@ from ..summary import summarise
 from ..summary_table import summary_table
 from .endings import check_result, exit_codes, keeping, say
 from .options import Isolate, Output, Quiet, Replay, Timeout, check_output, replay_file, time_limit
+from .stdout import stdout_for_results
 
 
 class ContactName(StrEnum):
@@ -70,7 +71,7 @@ def run(
         limit = time_limit(timeout, isolate=isolate)
         for note in notes(case, contact.value):
             say(f"note: {note}")
-        with keeping(output):
+        with keeping(output), stdout_for_results():
             passage = _followed_run(
                 case,
                 fmus,
