@@ -83,6 +83,17 @@ def test_slopes_are_part_of_a_state_and_survive_a_discarded_step(fmi, model):
     instance.must(instance.call("FreeFMUstate", byref(state)))
 
 
+def test_slopes_count_for_one_step(fmi):
+    instance = started(fmi(2, "vehicle"), "vehicle")
+    one, other = (f"wheel[{k}].rail_displacement" for k in (1, 2))
+    set_slopes(instance, {one: 10.0, other: 10.0})
+    instance.must(instance.step(0.0, STEP)[0])
+    before = instance.get(one, other)
+    set_slopes(instance, {other: 1.0})
+    instance.must(instance.step(STEP, STEP)[0])
+    assert instance.get(one, other) == [before[0], before[1] + STEP * 1.0]
+
+
 @both_versions
 def test_the_slope_of_the_rail_is_its_velocity(fmi, version):
     instance = started(fmi(version, "track"), "track")
