@@ -28,10 +28,10 @@ run: $(INSTALLED)
 	@echo "written: out/passage.nc and out/passage.png"
 
 test: lint
-	$(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2 --dist loadgroup
 
 check: lint
-	$(BIN)/python -m pytest -n 2 -m "slow or not slow"
+	$(BIN)/python -m pytest -n 2 --dist loadgroup -m "slow or not slow"
 
 # FUZZ_SEEDS="7 8 9" begins elsewhere; a failure names the seed and the call.
 fuzz: export FUZZ_CALLS ?= 500000
@@ -52,6 +52,7 @@ hosts: $(HOSTS)/installed-requirements.txt
 
 fmus: $(INSTALLED)
 	$(BIN)/railcosim build
+	$(BIN)/railcosim build --kind native
 
 # The stamp is the pyproject.toml that was installed: a checkout that only touches the file's date installs nothing.
 $(INSTALLED): pyproject.toml

@@ -114,6 +114,8 @@ rc_status rc_fmu_step(rc_fmu *fmu, double time, double step, int *ended_early)
         fmu->head->reached = rc_time(fmu->model);
         return rc_fmu_pass(fmu, status);
     }
+    if (fmu->head->sloped)
+        memset(fmu->slopes, 0, fmu->input_count * sizeof(double));
     fmu->head->sloped = 0;
     read_inputs(fmu, fmu->last);
     return RC_OK;
