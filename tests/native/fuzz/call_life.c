@@ -128,6 +128,7 @@ static void set_up_and_enter(school *at, pupil *of, double start, int has_stop, 
     if (at->host->set_up == NULL)
         of->is.start = start;
     of->is.time = of->is.start;
+    of->is.spoilt = at->spoilt;
     of->is.phase = INITIALISING;
 }
 

@@ -87,6 +87,7 @@ static void step_twice(school *at, pupil *of, double step)
     judge(at, of, at->host->save(of->fmu, &state), MAY_OK);
     const knowledge before = of->is;
     knowledge after = before;
+    after.spoilt = at->spoilt;
     const int taken = take(at, of, before.time, step, 0);
     const double reached = of->is.time;
     after.known = read_outputs(at, of, after.outputs);

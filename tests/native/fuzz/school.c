@@ -90,6 +90,8 @@ void compare(school *at, pupil *of, const knowledge *with)
     double now[MOST_OUTPUTS];
     if (!with->known || with->tainted)
         return;
+    if (with->touched && with->spoilt != at->spoilt)
+        return; /* the tables that its parameters name are others now */
     if (!read_outputs(at, of, now))
         blame(at, "outputs that were known are so no more");
     for (size_t i = 0; i < at->output_count; ++i)

@@ -30,6 +30,7 @@ typedef struct {
     double start, time;
     double outputs[MOST_OUTPUTS]; /* of a saved state, bit for bit */
     int known;                    /* whether `outputs` are */
+    unsigned spoilt;              /* how often the tables were before they were read */
 } knowledge;
 
 typedef struct {
@@ -65,6 +66,7 @@ typedef struct {
     uint32_t *inputs;
     size_t input_count;
     const char *tables[TABLES];
+    unsigned spoilt; /* how often the tables were written */
 } school;
 
 /* Ends the program with the seed and the call. */

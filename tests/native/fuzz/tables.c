@@ -45,6 +45,7 @@ static void write_table(FILE *file, draw *from, int profile)
 
 void spoil_tables(school *at)
 {
+    ++at->spoilt;
     for (size_t i = 0; i + 2 < TABLES; ++i) {
         if (draw_once_in(&at->draw, 8)) { /* none, for a while */
             (void)remove(at->tables[i]);
