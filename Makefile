@@ -45,6 +45,7 @@ hosts: $(HOSTS)/installed-requirements.txt
 
 fmus: $(INSTALLED)
 	$(BIN)/railcosim build
+	$(BIN)/railcosim build --kind native
 
 # The stamp is the pyproject.toml that was installed: a checkout that only touches the file's date installs nothing.
 $(INSTALLED): pyproject.toml

@@ -1,37 +1,40 @@
 """`railcosim build`: the FMUs of the paper's case and their systems."""
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from build_fmus import default_directory
+from build_fmus import folder_of
+from fmu_src.native.compiler import TARGETS
 
-from ..passage import build_for
-from ..passage_package import ensure_package
-from ..scenario import Scenario
-from ..signals import ContactSide
+from ..errors import InputError
+from ..paper_case import build_native, build_python
 from .endings import exit_codes, say
-
-PACKAGE_NAMES: Mapping[ContactSide, str] = {
-    "vehicle": "Passage.ssp",
-    "track": "PassageContactOnTrack.ssp",
-}
-"""Files of the paper's case as a system of FMUs."""
+from .options import FmuKind
 
 
 def build(
     directory: Annotated[
-        Path | None, typer.Option("--output", metavar="FOLDER", help="Where to; dist/ without.")
+        Path | None,
+        typer.Option("--output", metavar="FOLDER", help="Where to; dist/ or dist/native/ without."),
+    ] = None,
+    kind: Annotated[FmuKind, typer.Option(help="Which build.")] = FmuKind.PYTHON,
+    platform: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="|".join(TARGETS), help="Of native FMUs; may be repeated; all without."
+        ),
     ] = None,
 ) -> None:
     """Build the FMUs of the paper's case and its systems where they are missing or stale."""
     with exit_codes():
-        folder = directory or default_directory()
-        for contact, name in PACKAGE_NAMES.items():
-            paths = build_for(Scenario(), contact=contact, directory=folder, notify=say)
-            package = folder / name
-            ensure_package(Scenario(), paths, package, contact=contact, notify=say)
-            for path in (paths.track, paths.vehicle, package):
-                typer.echo(path)
+        folder = directory or folder_of(kind.value)
+        if kind is FmuKind.NATIVE:
+            written = build_native(folder, platform or tuple(TARGETS), notify=say)
+        elif platform:
+            raise InputError("--platform is for --kind native: leave it out")
+        else:
+            written = build_python(folder, notify=say)
+        for path in written:
+            typer.echo(path)

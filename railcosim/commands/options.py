@@ -1,5 +1,6 @@
 """Options that several commands share."""
 
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
@@ -9,6 +10,14 @@ from orchestrator.isolated import DEFAULT_TIMEOUT
 
 from ..errors import InputError
 from ..output import DATA_SUFFIXES, REPLAY_SUFFIX, check_writable
+
+
+class FmuKind(StrEnum):
+    """Which build of the FMUs."""
+
+    PYTHON = "python"
+    NATIVE = "native"
+
 
 Isolate = Annotated[bool, typer.Option("--isolate", help="Run each FMU in a process of its own.")]
 Timeout = Annotated[

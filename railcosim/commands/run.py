@@ -10,6 +10,7 @@ import typer
 import xarray as xr
 from rich.console import Console
 
+from ..builds import usual_build
 from ..figures import describe, draw_passage
 from ..notes import notes
 from ..output import FIGURE_SUFFIXES, check_writable, write_dataset, write_figure
@@ -20,7 +21,17 @@ from ..scenario_file import read_scenario
 from ..summary import summarise
 from ..summary_table import summary_table
 from .endings import check_result, exit_codes, keeping, say
-from .options import Isolate, Output, Quiet, Replay, Timeout, check_output, replay_file, time_limit
+from .options import (
+    FmuKind,
+    Isolate,
+    Output,
+    Quiet,
+    Replay,
+    Timeout,
+    check_output,
+    replay_file,
+    time_limit,
+)
 from .stdout import stdout_for_results
 
 
@@ -29,12 +40,6 @@ class ContactName(StrEnum):
 
     VEHICLE = "vehicle"
     TRACK = "track"
-
-
-class FmuKind(StrEnum):
-    """Which build of the FMUs runs."""
-
-    PYTHON = "python"
 
 
 def run(
@@ -46,7 +51,10 @@ def run(
         list[str] | None,
         typer.Option("--set", metavar="KEY=VALUE", help="Replace a key, as in flat.depth=1e-3."),
     ] = None,
-    fmus: Annotated[FmuKind, typer.Option(help="Which build of the FMUs runs.")] = FmuKind.PYTHON,
+    fmus: Annotated[
+        FmuKind | None,
+        typer.Option(help="Which build of the FMUs runs; native, if it has been built, without."),
+    ] = None,
     contact: Annotated[
         ContactName, typer.Option(help="Which FMU has the contacts.")
     ] = ContactName.VEHICLE,
@@ -74,7 +82,7 @@ def run(
         with keeping(output), stdout_for_results():
             passage = _followed_run(
                 case,
-                fmus,
+                usual_build(contact.value) if fmus is None else fmus.value,
                 contact,
                 timeout=limit,
                 replay=replay_file(replay, output),
@@ -94,7 +102,7 @@ def run(
 
 def _followed_run(
     case: Scenario,
-    fmus: FmuKind,
+    fmus: str,
     contact: ContactName,
     *,
     timeout: float | None,
@@ -105,7 +113,7 @@ def _followed_run(
     run_case = partial(
         run_passage,
         case,
-        fmus=fmus.value,
+        fmus=fmus,
         contact=contact.value,
         timeout=timeout,
         replay=replay,

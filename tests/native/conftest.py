@@ -1,9 +1,13 @@
+import zipfile
+
 import pytest
 
+from build_fmus import Structure, ensure_native_fmus
 from fmu_src.native.compiler import TARGETS, compile_library, this_target
 from fmu_src.native.model_resources import track_resource, vehicle_resource
 from track_fmu.parameters import TrackParameters
 
+from .fmi_calls import Calls
 from .library import NativeModel, load
 from .twins import TrackPair, VehiclePair
 
@@ -63,3 +67,42 @@ def vehicle_pair(native):
         return VehiclePair(native, **options)
 
     return make
+
+
+@pytest.fixture(scope="session")
+def small():
+    """The structure of the short track."""
+    return Structure(bays=12, elements_per_bay=4, gauges=2)
+
+
+@pytest.fixture(scope="session")
+def native_fmus(tmp_path_factory, small):
+    """FMUs for this machine by version of FMI."""
+    folder = tmp_path_factory.mktemp("fmus")
+    return {version: ensure_native_fmus(folder, small, fmi_version=version) for version in (2, 3)}
+
+
+@pytest.fixture(scope="session")
+def unpacked(native_fmus, tmp_path_factory):
+    """Folders of the unpacked FMUs by version and model."""
+    folders = {}
+    for version, pair in native_fmus.items():
+        for model in ("track", "vehicle"):
+            folders[version, model] = tmp_path_factory.mktemp(f"{model}{version}")
+            with zipfile.ZipFile(getattr(pair, model)) as archive:
+                archive.extractall(folders[version, model])
+    return folders
+
+
+@pytest.fixture
+def fmi(unpacked):
+    """Makes instances of the unpacked FMUs, and frees them at the end."""
+    opened = []
+
+    def make(version, model, **options):
+        opened.append(Calls(unpacked[version, model], **options))
+        return opened[-1]
+
+    yield make
+    for instance in opened:
+        instance.free()
