@@ -17,7 +17,7 @@ from pathlib import Path
 SOURCES = Path(__file__).parent / "c"
 
 COMMON = ("binary.c", "checksum.c", "create.c", "model.c", "state.c", "variables.c")
-TRACK = (
+ON_TRACK = (
     "basis.c",
     "dense.c",
     "exponential.c",
@@ -29,21 +29,35 @@ TRACK = (
     "rows.c",
     "static_start.c",
     "supports.c",
-    "track.c",
-    "track_derivative.c",
     "track_memory.c",
+    "track_setup.c",
 )
+TRACK = (*ON_TRACK, "track.c", "track_derivative.c")
+MOTION = ("curve.c", "motion.c", "table_file.c")
+SURFACES = ("curve.c", "flat.c", "surfaces.c", "table_file.c")
 VEHICLE = (
-    "curve.c",
+    *dict.fromkeys((*MOTION, *SURFACES)),
     "excitation.c",
-    "flat.c",
-    "motion.c",
-    "table_file.c",
     "vehicle.c",
     "vehicle_setup.c",
     "wheel.c",
 )
-MODELS = {"track": (*COMMON, *TRACK), "vehicle": (*COMMON, *VEHICLE)}
+TRACK_CONTACT = (
+    *ON_TRACK,
+    *SURFACES,
+    "contact_memory.c",
+    "contact_solution.c",
+    "contact_step.c",
+    "continuation.c",
+    "track_contact.c",
+)
+MASSES = (*MOTION, "masses.c")
+MODELS = {
+    "track": (*COMMON, *TRACK),
+    "vehicle": (*COMMON, *VEHICLE),
+    "track_contact": (*COMMON, *TRACK_CONTACT),
+    "masses": (*COMMON, *MASSES),
+}
 """Sources of every model."""
 
 LANGUAGE = ("-std=c11", "-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Wshadow", "-Werror")

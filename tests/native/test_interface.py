@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
+from fmu_src.python.masses_variables import declare_masses
 from fmu_src.python.model_slave import LINEAR_INPUTS
+from fmu_src.python.track_contact_variables import declare_track_contact
 from fmu_src.python.track_variables import declare_track
 from fmu_src.python.vehicle_variables import declare_vehicle
 
@@ -26,14 +28,15 @@ SPEED = 40.0 / 3.6
 CAUSALITIES = {CONSTANT: "parameter", PARAMETER: "parameter", INPUT: "input", OUTPUT: "output"}
 
 
-@pytest.mark.parametrize("model", ["track", "vehicle"])
+@pytest.mark.parametrize("model", ["track", "vehicle", "track_contact", "masses"])
 def test_variables_are_those_of_the_python_fmu(native, short_track, model):
     """Names, types, causalities and start values, in the same order: the same references."""
     declared = {
-        "track": lambda: declare_track(short_track, wheels=2, gauges=2),
-        "vehicle": lambda: declare_vehicle(2),
+        "track": lambda: [*declare_track(short_track, wheels=2, gauges=2), LINEAR_INPUTS],
+        "vehicle": lambda: [*declare_vehicle(2), LINEAR_INPUTS],
+        "track_contact": lambda: declare_track_contact(short_track, wheels=2, gauges=2),
+        "masses": lambda: declare_masses(2),
     }[model]()
-    declared.append(LINEAR_INPUTS)
     instance = native(model)
     assert instance.names == [variable.name for variable in declared]
     for group in instance.groups:
