@@ -26,6 +26,10 @@ TRACK_GROUPS = {
 VEHICLE_GROUPS = ("position", "contact_force", "displacement", "velocity", "gap")
 AGREEMENT = 1e-12  # of the largest value of an array
 ORDER = {
+    "force": 1e5,
+    "ahead": 1e5,
+    "increment": 1e5,
+    "compression": 1e-3,
     "rail_velocity": 0.1,
     "gap": 1e-3,
     "contact_force": 1e5,
