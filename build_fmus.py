@@ -3,6 +3,7 @@
 ``python build_fmus.py`` writes them to ``dist/``; what is there and up to date, byte for byte what
 the present sources give, is left alone. There are two pairs: the contacts are those of the vehicle
 or of the track. The FMUs of the default structure come with their systems in the paper's case.
+``--kind native`` compiles the models in C instead, into ``dist/native/``.
 """
 
 from __future__ import annotations
@@ -10,19 +11,25 @@ from __future__ import annotations
 import argparse
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
 import platformdirs
 
 from fmu_src.archive import holds, write_archive
+from fmu_src.native.archives import ensure_archive
+from fmu_src.native.compiler import TARGETS, CompilationError
+from fmu_src.native.models import TRACK_CONSTANTS, native_track, native_vehicle
+from fmu_src.native.packaging import FmiVersion
 from fmu_src.python.packaging import RECIPES, fmu_contents
+from fmu_src.python.variables import Value
 
 PAIRS = {"vehicle": ("track", "vehicle"), "track": ("track_contact", "masses")}
 """Kinds of the FMUs of track and vehicle by the side that has the contacts."""
 
 TRACKS = {track for track, _ in PAIRS.values()}
+KINDS = ("python", "native")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,10 +81,13 @@ class FmuPaths:
     ----------
     track, vehicle : Path
         The archives.
+    fixed : tuple of str
+        Parameters of the track that cannot be set, because its modes were computed with them.
     """
 
     track: Path
     vehicle: Path
+    fixed: tuple[str, ...] = ()
 
 
 def default_directory() -> Path:
@@ -127,42 +137,124 @@ def ensure_fmus(
     return FmuPaths(track=track, vehicle=vehicle)
 
 
+def ensure_native_fmus(
+    directory: Path,
+    structure: Structure | None = None,
+    *,
+    fixed: Mapping[str, Value] | None = None,
+    fmi_version: FmiVersion = 2,
+    platforms: Collection[str] | None = None,
+    progress: Callable[[str], None] | None = None,
+) -> FmuPaths:
+    """Build the native FMUs that are missing or stale.
+
+    Parameters
+    ----------
+    directory : Path
+        Where they are kept.
+    structure : Structure, optional
+        What is fixed at build time; the paper's track and bogie without.
+    fixed : mapping of str to float, int or bool, optional
+        Values of `TRACK_CONSTANTS` other than the paper's. FMUs of such tracks have a name of
+        their own; only the last ones built are kept.
+    fmi_version : {2, 3}
+        2.0 or 3.0.
+    platforms : collection of str, optional
+        What to compile for, keys of `fmu_src.native.compiler.TARGETS`; this machine without.
+    progress : callable
+        Told what is being built.
+
+    Raises
+    ------
+    ValueError
+        For values that no track can have.
+    CompilationError
+        If something has to be compiled and cannot.
+    OSError
+        If an archive cannot be written.
+    """
+    structure = structure or Structure()
+    track, vehicle = (
+        ensure_archive(
+            directory,
+            Path(structure.file_name(model.kind)).stem,
+            model,
+            fmi_version=fmi_version,
+            platforms=platforms,
+            progress=progress,
+        )
+        for model in (
+            native_track(**structure.of("track"), fixed=fixed or {}),
+            native_vehicle(**structure.of("vehicle")),
+        )
+    )
+    return FmuPaths(track=track, vehicle=vehicle, fixed=TRACK_CONSTANTS)
+
+
 def main() -> int:
     """Build from the command line; returns the exit code."""
     parser = argparse.ArgumentParser(description="Build the track and vehicle FMUs.")
-    parser.add_argument("--output", type=Path, default=default_directory(), help="folder")
+    parser.add_argument("--output", type=Path, help="folder; dist/ or dist/native/ without")
+    parser.add_argument("--kind", choices=KINDS, default="python", help="default %(default)s")
+    parser.add_argument(
+        "--platform",
+        action="append",
+        choices=TARGETS,
+        help="of native FMUs; may be repeated; all of them without",
+    )
     for field in fields(Structure):
         option = "--" + field.name.replace("_", "-")
         parser.add_argument(option, type=int, default=field.default, help="default %(default)s")
     arguments = vars(parser.parse_args())
-    directory = arguments.pop("output")
+    directory, kind, platforms = (arguments.pop(name) for name in ("output", "kind", "platform"))
+    if platforms and kind != "native":
+        parser.error("--platform is for --kind native")
+    directory = directory or folder_of(kind)
     try:
         structure = Structure(**arguments)
         if structure == Structure():
-            return _build_passage(directory)
-        pairs = [
-            ensure_fmus(
-                directory,
-                structure,
-                contact=contact,
-                progress=lambda text: print(text, file=sys.stderr),
-            )
-            for contact in PAIRS
-        ]
+            return _build_passage(directory, kind, platforms or ())
+        built = _build(directory, structure, kind, platforms or tuple(TARGETS))
     except ValueError as error:
         print(f"build_fmus: {error}", file=sys.stderr)
         return 2
+    except CompilationError as error:
+        print(f"build_fmus: {error}", file=sys.stderr)
+        return 1
     except OSError as error:
         print(f"build_fmus: cannot write to {directory}: {error.strerror}", file=sys.stderr)
         return 1
-    for paths in pairs:
+    for paths in built:
         print(paths.track, paths.vehicle, sep="\n")
     return 0
 
 
-def _build_passage(directory: Path) -> int:
+def folder_of(kind: str) -> Path:
+    """Where the FMUs of a kind, python or native, are kept if nothing is said."""
+    return default_directory() / "native" if kind == "native" else default_directory()
+
+
+def _build(
+    directory: Path, structure: Structure, kind: str, platforms: Collection[str]
+) -> list[FmuPaths]:
+    def say(text: str) -> None:
+        print(text, file=sys.stderr)
+
+    if kind == "native":
+        versions: tuple[FmiVersion, ...] = (2, 3)
+        return [
+            ensure_native_fmus(
+                directory, structure, fmi_version=version, platforms=platforms, progress=say
+            )
+            for version in versions
+        ]
+    return [ensure_fmus(directory, structure, contact=contact, progress=say) for contact in PAIRS]
+
+
+def _build_passage(directory: Path, kind: str, platforms: Collection[str]) -> int:
     """Leave the default structure to the application, which knows the numbers of its passage."""
     command = [sys.executable, "-m", "railcosim", "build", "--output", str(directory.resolve())]
+    command += ["--kind", kind, *(part for name in platforms for part in ("--platform", name))]
     done = subprocess.run(command, cwd=Path(__file__).resolve().parent, check=False)  # noqa: S603 - fixed
     return done.returncode
 

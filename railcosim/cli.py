@@ -3,7 +3,7 @@
 import json
 import signal
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
 from enum import StrEnum
@@ -17,12 +17,14 @@ from rich.console import Console
 from threadpoolctl import threadpool_limits
 
 import orchestrator
-from build_fmus import default_directory
+from build_fmus import folder_of
+from fmu_src.native.compiler import TARGETS
 from orchestrator import check_fmu
 from orchestrator.isolated import DEFAULT_TIMEOUT
 from orchestrator.replay import open_replay, repeat
 
 from . import __version__
+from .builds import usual_build
 from .cosim import run_system
 from .cosim_options import CosimOptions
 from .cosim_result import cosim_table, summarise_cosim
@@ -37,13 +39,12 @@ from .output import (
     write_dataset,
     write_figure,
 )
-from .passage import build_for, run_passage
-from .passage_package import ensure_package
+from .paper_case import build_native, build_python
+from .passage import run_passage
 from .progress import progress_bar
 from .repetition_report import repetition_numbers, repetition_table
 from .scenario import Scenario
 from .scenario_file import read_scenario
-from .signals import ContactSide
 from .summary import summarise
 from .summary_table import summary_table
 from .verdict_table import verdict_table
@@ -81,13 +82,6 @@ class ContactName(StrEnum):
     TRACK = "track"
 
 
-PACKAGE_NAMES: Mapping[ContactSide, str] = {
-    "vehicle": "Passage.ssp",
-    "track": "PassageContactOnTrack.ssp",
-}
-"""Files of the paper's case as a system of FMUs."""
-
-
 class AlgorithmName(StrEnum):
     """Coupling algorithms."""
 
@@ -100,6 +94,7 @@ class FmuKind(StrEnum):
     """Which build of the FMUs runs."""
 
     PYTHON = "python"
+    NATIVE = "native"
 
 
 def main() -> None:
@@ -145,7 +140,10 @@ def run(
         list[str] | None,
         typer.Option("--set", metavar="KEY=VALUE", help="Replace a key, as in flat.depth=1e-3."),
     ] = None,
-    fmus: Annotated[FmuKind, typer.Option(help="Which build of the FMUs runs.")] = FmuKind.PYTHON,
+    fmus: Annotated[
+        FmuKind | None,
+        typer.Option(help="Which build of the FMUs runs; native, if it has been built, without."),
+    ] = None,
     contact: Annotated[
         ContactName, typer.Option(help="Which FMU has the contacts.")
     ] = ContactName.VEHICLE,
@@ -176,7 +174,7 @@ def run(
         with _keeping(output):
             passage = _followed_run(
                 case,
-                fmus,
+                usual_build(contact.value) if fmus is None else fmus.value,
                 contact,
                 timeout=limit,
                 replay=_replay_file(replay, output),
@@ -278,18 +276,28 @@ def cosim(
 @app.command()
 def build(
     directory: Annotated[
-        Path | None, typer.Option("--output", metavar="FOLDER", help="Where to; dist/ without.")
+        Path | None,
+        typer.Option("--output", metavar="FOLDER", help="Where to; dist/ or dist/native/ without."),
+    ] = None,
+    kind: Annotated[FmuKind, typer.Option(help="Which build.")] = FmuKind.PYTHON,
+    platform: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="|".join(TARGETS), help="Of native FMUs; may be repeated; all without."
+        ),
     ] = None,
 ) -> None:
     """Build the FMUs of the paper's case and its systems where they are missing or stale."""
     with _exit_codes():
-        folder = directory or default_directory()
-        for contact, name in PACKAGE_NAMES.items():
-            paths = build_for(Scenario(), contact=contact, directory=folder, notify=_say)
-            package = folder / name
-            ensure_package(Scenario(), paths, package, contact=contact, notify=_say)
-            for path in (paths.track, paths.vehicle, package):
-                typer.echo(path)
+        folder = directory or folder_of(kind.value)
+        if kind is FmuKind.NATIVE:
+            written = build_native(folder, platform or tuple(TARGETS), notify=_say)
+        elif platform:
+            raise InputError("--platform is for --kind native: leave it out")
+        else:
+            written = build_python(folder, notify=_say)
+        for path in written:
+            typer.echo(path)
 
 
 @app.command()
@@ -359,7 +367,7 @@ def _time_limit(timeout: float | None, *, isolate: bool) -> float | None:
 
 def _followed_run(
     case: Scenario,
-    fmus: FmuKind,
+    fmus: str,
     contact: ContactName,
     *,
     timeout: float | None,
@@ -370,7 +378,7 @@ def _followed_run(
     run_case = partial(
         run_passage,
         case,
-        fmus=fmus.value,
+        fmus=fmus,
         contact=contact.value,
         timeout=timeout,
         replay=replay,

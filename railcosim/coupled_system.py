@@ -90,7 +90,7 @@ def fmu_sources(
         FmuSource(
             path=paths.track,
             name="track",
-            start_values=track_values(scenario, law, contact),
+            start_values=track_values(scenario, law, contact, fixed=paths.fixed),
             timeout=timeout,
         ),
     )

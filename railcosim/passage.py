@@ -9,10 +9,10 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 import orchestrator
-from build_fmus import Structure, default_directory, ensure_fmus
 from orchestrator import Master, Recorder
 from orchestrator.replay import ReplayCase
 
+from .builds import build_for
 from .coupled_system import (
     fmu_sources,
     join,
@@ -66,7 +66,7 @@ def run_passage(
     scenario : Scenario
         What to run.
     fmus : str
-        Which build of the FMUs runs: ``python``.
+        Which build of the FMUs runs: ``python`` or ``native``.
     contact : {"vehicle", "track"}
         Which of the two FMUs has the contacts. On the track's side, nothing is iterated unless
         the scenario names the algorithm newton.
@@ -75,7 +75,7 @@ def run_passage(
     replay : Path, optional
         Replay file to write if the run fails.
     directory : Path, optional
-        Where the FMUs are kept; `build_fmus.default_directory` without.
+        Where the FMUs are kept; `build_fmus.folder_of` without.
     notify : callable, optional
         Told in a few words when an FMU has to be built, and of what makes the result doubtful.
     report : callable, optional
@@ -96,7 +96,7 @@ def run_passage(
     scenario = with_steps_for(scenario, contact)
     law = speed_law(scenario.vehicle)
     check_profiles(scenario)
-    paths = build_for(scenario, contact=contact, directory=directory, notify=notify)
+    paths = build_for(scenario, fmus, contact=contact, directory=directory, notify=notify)
     provenance = _provenance(paths)
 
     def label(outcome: Outcome) -> xr.Dataset | None:
@@ -129,37 +129,6 @@ def run_passage(
     if result is None:
         raise RunError("interrupted before there was anything to keep")
     return result
-
-
-def build_for(
-    scenario: Scenario,
-    *,
-    contact: ContactSide = "vehicle",
-    directory: Path | None = None,
-    notify: Callable[[str], None] | None = None,
-) -> FmuPaths:
-    """Build the FMUs of a scenario's size where they are missing or stale.
-
-    Raises
-    ------
-    RunError
-        Where they cannot be written.
-    """
-    numbers = count(scenario)
-    structure = Structure(
-        bays=scenario.track.bays,
-        elements_per_bay=scenario.track.elements_per_bay,
-        wheels=numbers["wheel"],
-        gauges=numbers["gauge"],
-    )
-    directory = directory or default_directory()
-    try:
-        return ensure_fmus(directory, structure, contact=contact, progress=notify)
-    except OSError as error:
-        raise RunError(
-            f"the FMUs cannot be written to {directory}: {error.strerror or error}; make that "
-            "folder writable"
-        ) from error
 
 
 def _case(

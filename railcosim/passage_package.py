@@ -103,7 +103,12 @@ def describe_passage(
         name="Passage",
         components=(
             _component("vehicle", fmus.vehicle, links, vehicle_values(scenario, law, contact)),
-            _component("track", fmus.track, links, track_values(scenario, law, contact)),
+            _component(
+                "track",
+                fmus.track,
+                links,
+                track_values(scenario, law, contact, fixed=fmus.fixed),
+            ),
         ),
         links=links,
         start_time=0.0,

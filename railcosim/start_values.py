@@ -5,10 +5,14 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import TYPE_CHECKING, TypeAlias
 
+from fmu_src.native.models import TRACK_CONSTANTS
+
 from .motion import initial_speed
 from .sections import Track
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from vehicle_fmu.speed import SpeedLaw
 
     from .scenario import Scenario
@@ -21,16 +25,32 @@ BUILT_IN = ("bays", "elements_per_bay")
 """Keys of the track that are fixed when its FMU is built."""
 
 
-def track_values(
-    scenario: Scenario, law: SpeedLaw, contact: ContactSide = "vehicle"
-) -> dict[str, Value]:
-    """Return the parameters of the track FMU, with those of the contacts if it has them."""
+def track_constants(scenario: Scenario) -> dict[str, Value]:
+    """Return the parameters of the track FMU that its modes depend on."""
+    return {name: value for name, value in _of_track(scenario).items() if name in TRACK_CONSTANTS}
+
+
+def _of_track(scenario: Scenario) -> dict[str, Value]:
     own = {
         item.name: getattr(scenario.track, item.name)
         for item in fields(Track)
         if item.name not in BUILT_IN
     }
-    own["mode_pairs"] = scenario.track.retained_pairs
+    return own | {"mode_pairs": scenario.track.retained_pairs}
+
+
+def track_values(
+    scenario: Scenario,
+    law: SpeedLaw,
+    contact: ContactSide = "vehicle",
+    *,
+    fixed: Collection[str] = (),
+) -> dict[str, Value]:
+    """Return the parameters of the track FMU, with those of the contacts if it has them.
+
+    Those that are `fixed` in the FMU are left out.
+    """
+    own = {name: value for name, value in _of_track(scenario).items() if name not in fixed}
     gauges = {
         f"gauge[{k}].position": position
         for k, position in enumerate(scenario.gauge_positions, start=1)

@@ -17,7 +17,7 @@ PYTHON = sys.stdlib_module_names | {"_typeshed"}  # the latter only for type che
 MAY_IMPORT = {
     "track_fmu": {"numpy", "scipy"},
     "vehicle_fmu": {"numpy", "scipy"},
-    "fmu_src": {"numpy", "scipy", "pythonfmu", *MODELS},
+    "fmu_src": {"numpy", "scipy", "fmpy", "pythonfmu", *MODELS},
     "orchestrator": {"numpy", "scipy", "fmpy", "lxml"},
     "build_fmus": {"platformdirs", "fmu_src"},
     "railcosim": {

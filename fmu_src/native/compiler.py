@@ -12,10 +12,24 @@ import sys
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 
-SOURCES = Path(__file__).parent / "c"
+import fmpy
 
+SOURCES = Path(__file__).parent / "c"
+HEADERS = Path(str(fmpy.__file__)).parent / "c-code"
+"""Headers of both versions of FMI."""
+
+FMI = (
+    "fmi2.c",
+    "fmi2_values.c",
+    "fmu.c",
+    "fmu_state.c",
+    "fmu_step.c",
+    "fmu_switch.c",
+    "resource_file.c",
+)
 COMMON = ("binary.c", "checksum.c", "create.c", "model.c", "state.c", "variables.c")
 ON_TRACK = (
     "basis.c",
@@ -53,10 +67,13 @@ TRACK_CONTACT = (
 )
 MASSES = (*MOTION, "masses.c")
 MODELS = {
-    "track": (*COMMON, *TRACK),
-    "vehicle": (*COMMON, *VEHICLE),
-    "track_contact": (*COMMON, *TRACK_CONTACT),
-    "masses": (*COMMON, *MASSES),
+    name: (*FMI, *COMMON, *own)
+    for name, own in (
+        ("track", TRACK),
+        ("vehicle", VEHICLE),
+        ("track_contact", TRACK_CONTACT),
+        ("masses", MASSES),
+    )
 }
 """Sources of every model."""
 
@@ -77,7 +94,8 @@ class Target:
     triple : str
         What ziglang calls it, with the oldest C library it shall run on.
     folder : str
-        Folder of its libraries in an FMU of FMI 2.0; that of FMI 3.0 is the key of `TARGETS`.
+        Folder of its libraries in an FMU of FMI 2.0, "" where that names none; that of FMI 3.0 is
+        the key of `TARGETS`.
     suffix : str
         End of a library's name.
     options : tuple of str
@@ -90,24 +108,38 @@ class Target:
     options: tuple[str, ...] = ()
 
 
-_LINUX = ("-Wl,--build-id=none", "-Wl,-z,defs", "-lm")
+_LINUX = ("-Wl,--build-id=none", "-Wl,-z,defs", "-Wl,-Bsymbolic", "-lm")
+"""Calls within a library stay in it, whatever else a host has loaded."""
 
 TARGETS = {
     "x86_64-linux": Target(
         triple="x86_64-linux-gnu.2.17", folder="linux64", suffix=".so", options=_LINUX
     ),
     "aarch64-linux": Target(
-        triple="aarch64-linux-gnu.2.17", folder="aarch64-linux", suffix=".so", options=_LINUX
+        triple="aarch64-linux-gnu.2.17", folder="", suffix=".so", options=_LINUX
     ),
     "x86_64-windows": Target(triple="x86_64-windows-gnu", folder="win64", suffix=".dll"),
     "x86_64-darwin": Target(triple="x86_64-macos.11.0", folder="darwin64", suffix=".dylib"),
-    "aarch64-darwin": Target(triple="aarch64-macos.11.0", folder="aarch64-darwin", suffix=".dylib"),
+    "aarch64-darwin": Target(triple="aarch64-macos.11.0", folder="darwin64", suffix=".dylib"),
 }
 """Platforms by the name that FMI 3.0 gives them."""
 
 
 class CompilationError(RuntimeError):
     """The compiler is missing or refused the sources."""
+
+
+def source_files(model: str) -> dict[str, bytes]:
+    """C files of a model with all headers, those of FMI among them, by name."""
+    files = {name: (SOURCES / name).read_bytes() for name in MODELS[model]}
+    files |= {path.name: path.read_bytes() for path in SOURCES.glob("*.h")}
+    return files | {path.name: path.read_bytes() for path in HEADERS.glob("fmi[23]*.h")}
+
+
+def recipe(model: str, target: str, *, name: str) -> dict[str, bytes]:
+    """All that decides on the bytes of `compile_library`, but for the version of ziglang."""
+    options = repr((_options(TARGETS[target], name), LANGUAGE, ARITHMETIC, MODELS[model]))
+    return source_files(model) | {"options": options.encode()}
 
 
 def compile_library(model: str, target: str, *, name: str, extra: Sequence[str] = ()) -> bytes:
@@ -130,8 +162,7 @@ def compile_library(model: str, target: str, *, name: str, extra: Sequence[str] 
         If ziglang is not installed or does not compile the sources.
     """
     chosen = TARGETS[target]
-    linked = ["-shared", *REPRODUCIBLE, *chosen.options, *extra]
-    return _compile(model, chosen, [*linked, *_install_name(chosen, name)], name=name)
+    return _compile(model, chosen, [*_options(chosen, name), *extra], name=name)
 
 
 def compile_program(model: str, target: str, *, main: Path) -> bytes:
@@ -149,7 +180,9 @@ def compile_program(model: str, target: str, *, main: Path) -> bytes:
     CompilationError
         If ziglang is not installed or does not compile the sources.
     """
-    return _compile(model, TARGETS[target], ["-I.", str(main.resolve()), "-lm"], name="program")
+    chosen = TARGETS[target]
+    options = ["-target", chosen.triple, "-I.", str(main.resolve()), "-lm"]
+    return _compile(model, chosen, options, name="program")
 
 
 def _compile(model: str, target: Target, options: Sequence[str], *, name: str) -> bytes:
@@ -157,17 +190,25 @@ def _compile(model: str, target: Target, options: Sequence[str], *, name: str) -
         result = Path(folder) / f"{name}{target.suffix}"
         _run(
             [
-                "-target",
-                target.triple,
                 "-o",
                 str(result),
                 *LANGUAGE,
+                "-isystem",
+                str(HEADERS),
                 *ARITHMETIC,
                 *MODELS[model],
                 *options,
             ]
         )
         return result.read_bytes()
+
+
+def _options(target: Target, name: str) -> list[str]:
+    """Options that make a shared library."""
+    return [
+        *("-target", target.triple, "-shared"),
+        *(*REPRODUCIBLE, *target.options, *_install_name(target, name)),
+    ]
 
 
 def _install_name(target: Target, name: str) -> list[str]:
@@ -196,6 +237,10 @@ def this_target() -> str:
 
 def _run(arguments: Sequence[str]) -> None:
     """Run the C compiler in the folder of the sources, so that it sees no path."""
+    if find_spec("ziglang") is None:
+        raise CompilationError(
+            "the C compiler is missing: install the package 'ziglang' (pip install ziglang)"
+        )
     command = [sys.executable, "-m", "ziglang", "cc", *arguments]
     try:
         subprocess.run(  # noqa: S603 - the arguments are this module's own
@@ -204,8 +249,7 @@ def _run(arguments: Sequence[str]) -> None:
     except subprocess.CalledProcessError as error:
         reason = error.stderr.strip() or f"exit code {error.returncode}"
         raise CompilationError(
-            f"the C compiler refused the sources in {SOURCES}: {reason}; is the package "
-            "'ziglang' installed?"
+            f"the C compiler refused the sources in {SOURCES}: {reason}"
         ) from error
     except subprocess.TimeoutExpired as error:
         raise CompilationError(

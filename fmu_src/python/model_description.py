@@ -36,11 +36,11 @@ def complete(root: Element, variables: Sequence[Variable], *, guid: str) -> Elem
     root.set("guid", guid)
     simulation = _child(root, "CoSimulation")
     simulation.attrib.update(CAPABILITIES)
-    root.insert(list(root).index(simulation) + 1, _unit_definitions(variables))
+    root.insert(list(root).index(simulation) + 1, unit_definitions(variables))
     for element, variable in zip(_child(root, "ModelVariables"), variables, strict=True):
         _complete_variable(element, variable)
     root.remove(_child(root, "ModelStructure"))
-    root.append(_model_structure(variables))
+    root.append(model_structure(variables))
     return root
 
 
@@ -51,7 +51,8 @@ def _child(root: Element, tag: str) -> Element:
     return child
 
 
-def _unit_definitions(variables: Sequence[Variable]) -> Element:
+def unit_definitions(variables: Sequence[Variable]) -> Element:
+    """Units in use, with their SI exponents."""
     definitions = Element("UnitDefinitions")
     used = {variable.unit for variable in variables if variable.unit}
     for name, exponents in UNITS.items():
@@ -67,18 +68,25 @@ def _complete_variable(element: Element, variable: Variable) -> None:
     kind = element[0]
     if variable.causality == "output":
         kind.attrib.pop("start", None)
+    kind.attrib.update(limits(variable))
+
+
+def limits(variable: Variable) -> dict[str, str]:
+    """Unit, limits and nominal value, where a variable has them."""
     attributes = {
         "unit": variable.unit or None,
         "min": variable.minimum,
         "max": variable.maximum,
         "nominal": variable.nominal,
     }
-    for name, value in attributes.items():
-        if value is not None:
-            kind.set(name, value if isinstance(value, str) else repr(value))
+    return {
+        name: value if isinstance(value, str) else repr(value)
+        for name, value in attributes.items()
+        if value is not None
+    }
 
 
-def _model_structure(variables: Sequence[Variable]) -> Element:
+def model_structure(variables: Sequence[Variable]) -> Element:
     """Outputs depend on inputs through steps only, so at a communication point on nothing."""
     number = {variable.name: str(i) for i, variable in enumerate(variables, start=1)}
     structure = Element("ModelStructure")

@@ -217,7 +217,7 @@ def test_build_says_where_it_cannot_write(call, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["run", "--fmus", "native"], "'native' is not"),
+        (["run", "--fmus", "compiled"], "'compiled' is not"),
         (["run", "a.toml", "b.toml"], "b.toml"),
         (["--nosuch"], "--nosuch"),
         (["run", "--set", "master.algorithm=jacobi"], "takes steps of one size only"),

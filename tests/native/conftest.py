@@ -1,5 +1,6 @@
 import pytest
 
+from build_fmus import Structure, ensure_native_fmus
 from fmu_src.native.compiler import MODELS, TARGETS, compile_library, this_target
 from fmu_src.native.model_resources import masses_resource, track_resource, vehicle_resource
 from track_fmu.parameters import TrackParameters
@@ -83,3 +84,16 @@ def masses_pair(native):
         return MassesPair(native, resource, **options)
 
     return make
+
+
+@pytest.fixture(scope="session")
+def small():
+    """The structure of the short track."""
+    return Structure(bays=12, elements_per_bay=4, gauges=2)
+
+
+@pytest.fixture(scope="session")
+def native_fmus(tmp_path_factory, small):
+    """FMUs for this machine by version of FMI."""
+    folder = tmp_path_factory.mktemp("fmus")
+    return {version: ensure_native_fmus(folder, small, fmi_version=version) for version in (2,)}

@@ -172,8 +172,8 @@ rc_status rc_derivative(rc_model *model, const uint32_t *unknowns, size_t unknow
     double *input = model->change;
     double *output = input + (model->value_count - model->input_first);
     if (!model->stepped)
-        return rc_fail(model, RC_ERROR, "derivatives are those of the last step; none "
-                                        "succeeded since the last restored or refused one");
+        return rc_fail(model, RC_DISCARD, "derivatives are those of the last step; none "
+                                          "succeeded since the last restored or refused one");
     memset(model->change, 0,
            sizeof(double) * (model->value_count - model->input_first + model->output_count));
     for (size_t i = 0; i < known_count; ++i) {

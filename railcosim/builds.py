@@ -1,0 +1,97 @@
+"""The FMUs of a scenario: which builds there are, and how one is brought up to date."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from build_fmus import FmuPaths, Structure, ensure_fmus, ensure_native_fmus, folder_of
+from fmu_src.native.compiler import CompilationError
+
+from .dataset import count
+from .errors import InputError, RunError
+from .start_values import track_constants
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection
+    from pathlib import Path
+    from typing import Literal
+
+    from .scenario import Scenario
+    from .signals import ContactSide
+
+
+def usual_build(contact: ContactSide) -> str:
+    """Return the build that runs if nothing is said: ``native`` where it has been built."""
+    paths = [folder_of("native") / name for name in ("Track.fmu", "Vehicle.fmu")]
+    return "native" if contact == "vehicle" and all(p.is_file() for p in paths) else "python"
+
+
+def build_for(
+    scenario: Scenario,
+    fmus: str = "python",
+    *,
+    contact: ContactSide = "vehicle",
+    directory: Path | None = None,
+    fmi_version: Literal[2, 3] = 2,
+    platforms: Collection[str] | None = None,
+    notify: Callable[[str], None] | None = None,
+) -> FmuPaths:
+    """Build the FMUs of a scenario where they are missing or stale.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        Gives their size and, to native ones, the parameters that the modes depend on.
+    fmus : str
+        Which build: ``python`` or ``native``.
+    contact : {"vehicle", "track"}
+        Which of the two FMUs has the contacts.
+    directory : Path, optional
+        Where the FMUs are kept; `build_fmus.folder_of` without.
+    fmi_version : {2, 3}
+        Version of FMI of native FMUs.
+    platforms : collection of str, optional
+        What native FMUs are compiled for; this machine without.
+    notify : callable, optional
+        Told in a few words what is built.
+
+    Raises
+    ------
+    InputError
+        For a build that there is not.
+    RunError
+        Where they cannot be compiled or written.
+    """
+    numbers = count(scenario)
+    structure = Structure(
+        bays=scenario.track.bays,
+        elements_per_bay=scenario.track.elements_per_bay,
+        wheels=numbers["wheel"],
+        gauges=numbers["gauge"],
+    )
+    directory = directory or folder_of(fmus)
+    try:
+        if fmus == "python":
+            return ensure_fmus(directory, structure, contact=contact, progress=notify)
+        if fmus != "native":
+            raise InputError(f"fmus is {fmus!r} but must be python or native")
+        if contact != "vehicle":
+            raise InputError(
+                "there are no native FMUs with contact on the track: run the python ones, or "
+                "leave the contact to the vehicle"
+            )
+        return ensure_native_fmus(
+            directory,
+            structure,
+            fixed=track_constants(scenario),
+            fmi_version=fmi_version,
+            platforms=platforms,
+            progress=notify,
+        )
+    except CompilationError as error:
+        raise RunError(f"{error}; or run with --fmus python") from error
+    except OSError as error:
+        raise RunError(
+            f"the FMUs cannot be written to {directory}: {error.strerror or error}; make that "
+            "folder writable"
+        ) from error
