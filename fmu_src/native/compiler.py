@@ -24,6 +24,9 @@ HEADERS = Path(str(fmpy.__file__)).parent / "c-code"
 FMI = (
     "fmi2.c",
     "fmi2_values.c",
+    "fmi3.c",
+    "fmi3_absent.c",
+    "fmi3_values.c",
     "fmu.c",
     "fmu_state.c",
     "fmu_step.c",
