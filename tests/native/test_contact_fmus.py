@@ -111,6 +111,19 @@ def test_a_host_that_steps_the_vehicle_first_is_told_what_to_set(fmi, version):
     assert told.messages == []
 
 
+def test_a_step_ends_at_a_loss_of_contact_if_the_host_allows_it(fmi):
+    """Within the step, to 1e-9 s; then it goes on."""
+    early = fmi(3, "track_contact", early_return=True).start(linear_inputs=True)
+    early.must(early.put("wheel[1].displacement", -3e-3))
+    status, reached = early.step(0.0, 1e-3)
+    assert (status, early.early) == (OK, True)
+    assert 0.0 < early.get("wheel[1].gap")[0] < 1e-8
+    assert early.get("wheel[1].displacement")[0] == pytest.approx(-3.0 * reached, rel=1e-12)
+    early.must(early.put("wheel[1].displacement", -3e-3))
+    assert early.step(reached, 1e-3 - reached) == (OK, 1e-3)
+    assert not early.early
+
+
 # passages
 
 
