@@ -13,7 +13,7 @@ BIN := $(VENV)/bin
 INSTALLED := $(VENV)/installed-pyproject.toml
 
 HOSTS := .venv-hosts
-HOSTS_NEEDED := benchmarks/overhead/host_scripts/requirements.txt
+HOSTS_NEEDED := benchmarks/host_tools/scripts/requirements.txt
 
 # The matrices are small: BLAS threads cost more than they bring, most of all beside `pytest -n`.
 export OPENBLAS_NUM_THREADS := 1
