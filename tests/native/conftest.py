@@ -1,20 +1,21 @@
 import pytest
 
 from build_fmus import Structure, ensure_native_fmus
-from fmu_src.native.compiler import TARGETS, compile_library, this_target
-from fmu_src.native.model_resources import track_resource, vehicle_resource
+from fmu_src.native.compiler import MODELS, TARGETS, compile_library, this_target
+from fmu_src.native.model_resources import masses_resource, track_resource, vehicle_resource
 from track_fmu.parameters import TrackParameters
 
+from .contact_twins import ContactPair, MassesPair
 from .library import NativeModel, load
 from .twins import TrackPair, VehiclePair
 
 
 @pytest.fixture(scope="session")
 def libraries(tmp_path_factory):
-    """Both libraries, compiled for this machine."""
+    """All libraries, compiled for this machine."""
     folder = tmp_path_factory.mktemp("native")
     loaded = {}
-    for model in ("track", "vehicle"):
+    for model in MODELS:
         path = folder / f"{model}{TARGETS[this_target()].suffix}"
         path.write_bytes(compile_library(model, this_target(), name=model))
         loaded[model] = load(path)
@@ -29,9 +30,12 @@ def short_track():
 
 @pytest.fixture(scope="session")
 def resources(short_track):
+    size = {"wheels": 2, "gauges": 2, "mode_pairs": 36}
     return {
-        "track": track_resource(short_track, wheels=2, gauges=2, mode_pairs=36),
+        "track": track_resource(short_track, **size),
         "vehicle": vehicle_resource(wheels=2),
+        "track_contact": track_resource(short_track, **size, contact=True),
+        "masses": masses_resource(wheels=2),
     }
 
 
@@ -62,6 +66,22 @@ def track_pair(native):
 def vehicle_pair(native):
     def make(**options):
         return VehiclePair(native, **options)
+
+    return make
+
+
+@pytest.fixture
+def contact_pair(native):
+    def make(parameters, resource=None, **options):
+        return ContactPair(native, parameters, resource, **options)
+
+    return make
+
+
+@pytest.fixture
+def masses_pair(native):
+    def make(resource=None, **options):
+        return MassesPair(native, resource, **options)
 
     return make
 

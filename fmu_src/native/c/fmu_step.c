@@ -114,6 +114,7 @@ rc_status rc_fmu_step(rc_fmu *fmu, double time, double step, int *ended_early)
         fmu->head->reached = rc_time(fmu->model);
         return rc_fmu_pass(fmu, status);
     }
+    rc_fmu_warn(fmu);
     fmu->head->sloped = 0;
     read_inputs(fmu, fmu->last);
     return RC_OK;

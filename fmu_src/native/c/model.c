@@ -30,6 +30,11 @@ const char *rc_message(const rc_model *model)
     return model->message;
 }
 
+const char *rc_warning(const rc_model *model)
+{
+    return model->warning;
+}
+
 rc_phase rc_current_phase(const rc_model *model)
 {
     return (rc_phase)model->head->phase;
@@ -101,6 +106,7 @@ rc_status rc_step(rc_model *model, double time, double step, rc_input_shape shap
                   double *reached)
 {
     *reached = model->head->time;
+    model->warning[0] = '\0';
     if (model->head->phase != RC_STEPPING)
         return rc_fail(model, RC_ERROR, "a step comes after the initialisation");
     if (!joins(time, model->head->time))

@@ -1,4 +1,5 @@
 /* Variables of an instance by number. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -34,8 +35,26 @@ size_t rc_name(const rc_model *model, uint32_t variable, char *name, size_t size
     const int length =
         mark == NULL ? snprintf(name, size, "%s", group->name)
                      : snprintf(name, size, "%.*s%lu%s", before, group->name,
-                                (unsigned long)(variable - group->first + 1), mark + 1);
+                                (unsigned long)(variable - group->first + group->lowest), mark + 1);
     return length > 0 && (size_t)length < size ? (size_t)length : 0;
+}
+
+rc_status rc_require_finite(rc_model *model, size_t group, const char *unit, const char *remedy)
+{
+    const double value = *rc_values(model, group);
+    if (isfinite(value))
+        return RC_OK;
+    return rc_fail(model, RC_ERROR, "%s is %g %s; it must be a finite number: %s",
+                   model->groups[group].name, value, unit, remedy);
+}
+
+rc_status rc_require_positive(rc_model *model, size_t group, const char *unit, const char *remedy)
+{
+    const double value = *rc_values(model, group);
+    if (isfinite(value) && value > 0.0)
+        return RC_OK;
+    return rc_fail(model, RC_ERROR, "%s is %g %s; it must be a finite number above zero: %s",
+                   model->groups[group].name, value, unit, remedy);
 }
 
 static const char *type_name(rc_type type)
