@@ -21,6 +21,7 @@ from fmu_src.native.compiler import TARGETS, CompilationError, this_target
 from fmu_src.native.library_cache import cached_library
 from fmu_src.native.models import native_vehicle
 from fmu_src.native.packaging import fmu_contents
+from orchestrator import check_fmu
 
 
 def paths_of(pair):
@@ -244,3 +245,11 @@ def test_terminals_name_variables_and_keep_to_the_schema(unpacked):
     icon = (unpacked[3, "track"] / "terminalsAndIcons" / "icon.png").read_bytes()
     assert icon[:8] == b"\x89PNG\r\n\x1a\n"
     assert matplotlib.image.imread(io.BytesIO(icon)).shape == (64, 64, 3)
+
+
+@pytest.mark.parametrize("model", ["track", "vehicle"])
+@pytest.mark.parametrize("version", [2, 3])
+def test_everything_that_they_claim_holds(native_fmus, version, model):
+    verdicts = check_fmu(getattr(native_fmus[version], model))
+    assert [item for item in verdicts if not item.holds] == []
+    assert len(verdicts) == 6

@@ -109,6 +109,9 @@ static rc_status set_start_values(rc_model *model)
         memcpy(model->texts + RC_TEXT_SIZE * model->slots[g], text, (size_t)(zero - text));
         text = zero + 1;
     }
+    if (text != end)
+        return rc_fail(model, RC_ERROR, "the resource has more start texts than the model; build "
+                                        "the FMU again");
     return RC_OK;
 }
 
