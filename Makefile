@@ -27,10 +27,10 @@ run: $(INSTALLED)
 	@echo "written: out/passage.nc and out/passage.png"
 
 test: lint
-	$(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2 --dist loadgroup
 
 check: lint
-	$(BIN)/python -m pytest -n 2 -m "slow or not slow"
+	$(BIN)/python -m pytest -n 2 --dist loadgroup -m "slow or not slow"
 
 lint: $(INSTALLED)
 	$(BIN)/ruff format --check
@@ -45,6 +45,7 @@ hosts: $(HOSTS)/installed-requirements.txt
 
 fmus: $(INSTALLED)
 	$(BIN)/railcosim build
+	$(BIN)/railcosim build --kind native
 
 # The stamp is the pyproject.toml that was installed: a checkout that only touches the file's date installs nothing.
 $(INSTALLED): pyproject.toml

@@ -44,7 +44,7 @@ def bond_by_unit(system: System, force: str, motion: str) -> Bond:
     base, _, per = (unit or "").partition("/")
     if base not in lengths or per not in {"", "s"}:
         raise WiringError(
-            f"{motion} has the unit {unit!r}, but the motion of a bond is in {', '.join(lengths)}, "
-            "or one of them per s."
+            f"{motion} {f'has the unit {unit!r}' if unit else 'declares no unit'}, but the motion "
+            f"of a bond is in {', '.join(lengths)}, or one of them per s."
         )
     return Bond(force=force, motion=motion, kind="velocity" if per else "displacement")

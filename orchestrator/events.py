@@ -2,7 +2,9 @@
 
 from collections import deque
 from collections.abc import Sequence
+from math import inf
 
+from .accumulation import GeometricIntervals
 from .bracket import Bracket, Point, most_others
 from .decision import Landed, Refine
 from .errors import ZenoError
@@ -27,6 +29,11 @@ class Switches:
         Number of switches allowed within `window`.
     window : float
         Span of time [s].
+    accumulation_share : float
+        Time left before switches accumulate, over the time they took so far, at which they are
+        taken to do so.
+    stop_time : float
+        End of the run [s]: switches that accumulate later do no harm.
     """
 
     def __init__(
@@ -37,6 +44,8 @@ class Switches:
         time_tolerance: float,
         limit: int,
         window: float,
+        accumulation_share: float = 1e-3,
+        stop_time: float = inf,
     ) -> None:
         self.names = tuple(names)
         self.found: list[Switch] = []
@@ -45,6 +54,12 @@ class Switches:
         self._limit = limit
         self._window = window
         self._recent: deque[float] = deque(maxlen=limit)
+        self._stop_time = stop_time
+        self._series = {
+            (place, positive): GeometricIntervals(accumulation_share)
+            for place in range(len(self.names))
+            for positive in (False, True)
+        }
         self._sides: list[int] = []
         self._at_rest: list[bool] = []
         self._values: tuple[float, ...] = ()
@@ -126,7 +141,7 @@ class Switches:
         Raises
         ------
         ZenoError
-            When too many switches follow one another.
+            When too many switches follow one another, or their intervals shrink to nothing.
         """
         self._bracket = None
         before = [(0.0, self._values), *self._before][:most_others]
@@ -157,8 +172,16 @@ class Switches:
     def _switch(self, time: float, place: int) -> None:
         self._sides[place] = -self._sides[place]
         self._at_rest[place] = True
-        name = self.names[place]
-        self.found.append(Switch(time=time, indicator=name, positive=self._sides[place] > 0))
+        name, positive = self.names[place], self._sides[place] > 0
+        self.found.append(Switch(time=time, indicator=name, positive=positive))
+        end = self._series[place, positive].add(time)
+        if end is not None and end <= self._stop_time:
+            raise ZenoError(
+                f"{name} switches at ever shorter intervals, the last ones before "
+                f"t = {time:.9g} s, which accumulate at t = {end:.9g} s, and nothing can be "
+                "simulated beyond; let the model come to rest there, give its contact a "
+                "stiffness, or stop before."
+            )
         self.count(time, f"{name} and others switched")
 
     def _settle(self, values: Sequence[float]) -> None:

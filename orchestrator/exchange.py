@@ -190,7 +190,8 @@ def _allocate(groups: Sequence[Sequence[str]]) -> tuple[Vector, list[Vector]]:
 
 
 def _check_indicator(path: str, variable: Variable) -> None:
-    if variable.type != "Real":
+    if variable.type != "Real" or variable.causality != "output":
         raise WiringError(
-            f"{path}: an event indicator is a signed Real output, but this is {variable.type}."
+            f"{path}: an event indicator is a signed Real output, but this is of the type "
+            f"{variable.type} and of the causality {variable.causality}."
         )

@@ -9,16 +9,13 @@ import numpy as np
 
 from .errors import ParticipantError, SettingsError
 from .fmu import DescribedFmu, FmuParticipant, StartValue
-from .frames import Operation, Report, experiment, number, step_times
+from .frames import Operation, Report, experiment, step_times
 from .participant import OK, InputShape, Matrix, Status, Vector
-from .resumed_process import ResumedProcess
+from .resumed_process import ResumedProcess, snapshot_interval
 from .worker_process import WorkerLostError
 
 DEFAULT_TIMEOUT = 60.0
 """Longest answer to one call, start-up of the process included [s]."""
-
-snapshot_interval = 100
-"""Steps from one serialised state to the next: so many are repeated after a crash at most."""
 
 
 class IsolatedParticipant(DescribedFmu):
@@ -79,7 +76,6 @@ class IsolatedParticipant(DescribedFmu):
         self._process: ResumedProcess | None = None
         self._step_size: float | None = None
         self._messages: tuple[str, ...] = ()
-        self._numbers = 0
 
     @property
     def input_shape(self) -> InputShape:
@@ -137,7 +133,7 @@ class IsolatedParticipant(DescribedFmu):
         """Leave the initialisation mode, and keep the state reached if it can be serialised."""
         self._initialise(bytes([Operation.EXIT]))
         if self.can_save_state and self.can_serialise_state:
-            self.release(self._save_serialised())
+            self.release(self._new_state(self._live.save_serialised()))
 
     def set_inputs(self, values: Vector) -> Status:
         """Set the bound inputs, shape (n_inputs,), with the next call that has an answer."""
@@ -151,8 +147,7 @@ class IsolatedParticipant(DescribedFmu):
     def get_outputs(self, out: Vector) -> Status:
         """Write the bound outputs to `out`, shape (n_outputs,)."""
         if not self._outputs_known:
-            operation = bytes([Operation.GET_OUTPUTS])
-            report = self._noted(self._live.ask(operation, "reading its outputs"))
+            report = self._read(Operation.GET_OUTPUTS, "outputs")
             if report.status is not OK:
                 return report.status
             self._take_outputs(report)
@@ -161,16 +156,14 @@ class IsolatedParticipant(DescribedFmu):
 
     def get_observed(self, out: Vector) -> Status:
         """Write the observed values to `out`, shape (n_observed,)."""
-        operation = bytes([Operation.GET_OBSERVED])
-        report = self._noted(self._live.ask(operation, "reading its observed values"))
+        report = self._read(Operation.GET_OBSERVED, "observed values")
         if report.status is OK:
             out[:] = np.frombuffer(report.payload)
         return report.status
 
     def directional_derivatives(self, out: Matrix) -> Status:
         """Write what each output gains with each input, shape (n_outputs, n_inputs)."""
-        operation = bytes([Operation.GET_DERIVATIVES])
-        report = self._noted(self._live.ask(operation, "reading its directional derivatives"))
+        report = self._read(Operation.GET_DERIVATIVES, "directional derivatives")
         if report.status is OK:
             out[:] = np.frombuffer(report.payload).reshape(out.shape)
         return report.status
@@ -180,7 +173,7 @@ class IsolatedParticipant(DescribedFmu):
         process = self._live
         process.time, self._step_size = time, step_size
         if process.journal.steps >= 2 * snapshot_interval:
-            self.release(self._save_serialised())  # nobody else saves states
+            self.release(self._new_state(self._live.save_serialised()))  # nobody else saves states
         operation = bytes([Operation.STEP]) + step_times.pack(time, step_size)
         report = self._noted(process.ask(operation, "the step", steps=1))
         if report.status is OK:
@@ -189,25 +182,18 @@ class IsolatedParticipant(DescribedFmu):
 
     def save(self) -> object:
         """Return a new handle of the complete present state."""
-        if self._live.journal.steps >= snapshot_interval:
-            return self._save_serialised()
-        self._numbers += 1
-        self._live.do_later(bytes([Operation.SAVE]) + number.pack(self._numbers))
-        self._live.journal.keep(self._numbers)
-        return self._numbers
+        return self._new_state(self._live.save())
 
     def restore(self, state: object) -> None:
         """Go back to `state`, with the next call that has an answer."""
         assert isinstance(state, int)
-        self._live.do_later(bytes([Operation.RESTORE]) + number.pack(state))
-        self._live.journal.go_back(state)
+        self._live.restore(state)
         self._outputs_known = False
 
     def release(self, state: object) -> None:
         """Give up `state`."""
         assert isinstance(state, int)
-        if self._live.journal.drop(state):
-            self._live.do_later(bytes([Operation.RELEASE]) + number.pack(state))
+        self._live.release(state)
 
     def serialise(self, state: object) -> bytes:
         """Return `state` as bytes, also after the process has ended."""
@@ -216,9 +202,7 @@ class IsolatedParticipant(DescribedFmu):
 
     def deserialise(self, data: bytes) -> object:
         """Return a new handle of the state in `data`."""
-        self._numbers += 1
-        self._require(self._live.deserialise(self._numbers, data))
-        return self._numbers
+        return self._new_state(self._live.deserialise(data))
 
     def terminate(self) -> None:
         """End the simulation in order."""
@@ -251,10 +235,13 @@ class IsolatedParticipant(DescribedFmu):
         self._require(self._live.initialise(operation))
         self._outputs_known = False
 
-    def _save_serialised(self) -> int:
-        self._numbers += 1
-        self._require(self._live.save_serialised(self._numbers))
-        return self._numbers
+    def _read(self, operation: Operation, what: str) -> Report:
+        return self._noted(self._live.ask(bytes([operation]), f"reading its {what}"))
+
+    def _new_state(self, saved: tuple[int, Report]) -> int:
+        state, report = saved
+        self._require(report)
+        return state
 
     def _take_outputs(self, report: Report) -> None:
         self._outputs[:] = np.frombuffer(report.payload)

@@ -201,6 +201,7 @@ def _outcome(
         wall_time=wall_time,
         warnings=(
             *warnings,
+            *loop.watch.warnings(),
             *(loop.audit.warnings() if loop.audit else ()),
             *(ledger.warnings() if ledger else ()),
         ),

@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from .block import Block
 from .coupling import Attempt, Coupling
 from .decision import Failure
@@ -86,6 +88,7 @@ class NewtonCoupling:
 
     def __init__(self, equations: list[tuple[Block, FixedPoint]]) -> None:
         self._equations = equations
+        self._bounded = [bool(np.isfinite([e.lower, e.upper]).any()) for _, e in equations]
         self._by_step_size: dict[float, list[Matrix | None]] = {}
         self._last: list[Matrix | None] = [None] * len(equations)
         self._step_size = 0.0
@@ -109,6 +112,8 @@ class NewtonCoupling:
                 if failure is not None:
                     return Attempt(failure, iterations, residual_norm)
                 continue
+            if self._bounded[place]:
+                unknowns = np.clip(unknowns, equations.lower, equations.upper)
 
             def evaluate(values: Vector, block: Block = block) -> Failure | None:
                 return block.step(values, time, step_size)

@@ -6,10 +6,6 @@ Participants that step, or single values of which each is its only output.
 from collections.abc import Container, Mapping, Sequence
 from graphlib import TopologicalSorter
 
-import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-
 Link = tuple[int, str, int]
 """Output `name` of one participant drives another: (source, name, target)."""
 
@@ -35,17 +31,14 @@ def coupled_blocks(count: int, links: Sequence[Link]) -> list[list[int]]:
     list of list of int
         Blocks in an order in which each depends on earlier ones only.
     """
-    sources = [source for source, _, _ in links]
-    targets = [target for _, _, target in links]
-    graph = coo_array((np.ones(len(links)), (sources, targets)), shape=(count, count))
-    _, labels = connected_components(graph, directed=True, connection="strong")
+    labels = _strong_components(count, links)
     members: dict[int, list[int]] = {}
     for place in range(count):
-        members.setdefault(int(labels[place]), []).append(place)
+        members.setdefault(labels[place], []).append(place)
     sorter: TopologicalSorter[int] = TopologicalSorter(dict.fromkeys(members, ()))
     for source, _, target in links:
         if labels[source] != labels[target]:
-            sorter.add(int(labels[target]), int(labels[source]))
+            sorter.add(labels[target], labels[source])
     return [members[label] for label in sorter.static_order()]
 
 
@@ -74,6 +67,45 @@ def order_of_fewest_torn(block: Sequence[int], links: Sequence[Link]) -> list[in
             driven[source].setdefault(name, set()).add(target)
     exact = len(block) <= largest_exact_block
     return (_best_order if exact else _greedy_order)(block, driven)
+
+
+def _strong_components(count: int, links: Sequence[Link]) -> list[int]:
+    """Label every participant by the block it belongs to.
+
+    Kosaraju's algorithm: in reverse order of finishing a search along the links, what can be
+    reached against them and has no label yet is a block. SciPy has it, too, but loading that takes
+    as long as the rest of the start of an isolated FMU.
+    """
+    along: list[list[int]] = [[] for _ in range(count)]
+    against: list[list[int]] = [[] for _ in range(count)]
+    for source, _, target in links:
+        along[source].append(target)
+        against[target].append(source)
+    seen = [False] * count
+    finished = [place for start in range(count) for place in _search(start, along, seen)]
+    labels, seen = [0] * count, [False] * count
+    for start in reversed(finished):
+        for place in _search(start, against, seen):
+            labels[place] = start
+    return labels
+
+
+def _search(start: int, following: Sequence[Sequence[int]], seen: list[bool]) -> list[int]:
+    """Return what can be reached and was not seen, depth first, as it is finished."""
+    if seen[start]:
+        return []
+    seen[start] = True
+    finished, way = [], [(start, iter(following[start]))]
+    while way:
+        place, others = way[-1]
+        unseen = next((other for other in others if not seen[other]), None)
+        if unseen is None:
+            finished.append(place)
+            way.pop()
+        else:
+            seen[unseen] = True
+            way.append((unseen, iter(following[unseen])))
+    return finished
 
 
 def _newly_torn(driven: Driven, place: int, before: frozenset[int]) -> int:

@@ -11,7 +11,7 @@ class History:
     Parameters
     ----------
     lower, upper : numpy.ndarray, shape (n,)
-        Bounds that no prediction leaves.
+        Bounds that no prediction leaves, unless the value has left them.
     """
 
     def __init__(self, lower: Vector, upper: Vector) -> None:
@@ -72,12 +72,16 @@ class History:
         return 2.0 * step_size / abs(step_size + self._behind)
 
     def predict(self, step_size: float) -> Vector:
-        """Return the values expected after `step_size` [s], within bounds; a new array."""
+        """Return the values expected after `step_size` [s]; a new array.
+
+        Those whose last value is within its bounds stay there; another one is continued as it is,
+        because clipping would pull it away from what its participant answers.
+        """
         if self._slope is None:
             return self._last.copy()
         values: Vector = self._slope * step_size
         values += self._last
         if self._bounded:
-            np.maximum(values, self._lower, out=values)
-            np.minimum(values, self._upper, out=values)
+            np.maximum(values, self._lower, out=values, where=self._last >= self._lower)
+            np.minimum(values, self._upper, out=values, where=self._last <= self._upper)
         return values

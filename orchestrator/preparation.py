@@ -115,6 +115,8 @@ def prepare(choices: Choices, start_time: float, stop_time: float) -> Prepared:
         time_tolerance=settings.event_time_tolerance,
         limit=settings.max_switches,
         window=settings.switch_window or 1e-6 * duration,
+        accumulation_share=settings.accumulation_share,
+        stop_time=stop_time,
     )
     ledger = Ledger(exchange, choices.bonds) if choices.bonds else None
     blocks, last, rolls_back = _divide(choices, exchange, controller)

@@ -119,7 +119,7 @@ class FixedPoint:
                 evaluations += z.size
                 differenced = True
             if iterations == self.max_iterations:
-                failure = self._not_converged(residual, norm)
+                failure = self._not_converged(z, residual, norm)
             if failure is not None or inverse is None:
                 return Solution(failure, None, evaluations, norm)
             z_before, before, norm_before = z, residual, norm
@@ -206,12 +206,14 @@ class FixedPoint:
             "Jacobian is singular",
         )
 
-    def _not_converged(self, residual: Vector, norm: float) -> Failure:
+    def _not_converged(self, z: Vector, residual: Vector, norm: float) -> Failure:
         worst = int(np.argmax(np.abs(residual)))
+        bound = self.lower[worst] if residual[worst] < 0.0 else self.upper[worst]
+        held = f" (kept at its bound {bound:.6g})" if z[worst] == bound else ""
         return Failure(
             Cause.CONVERGENCE,
             f"the coupling iteration did not converge in {self.max_iterations} corrections: "
-            f"{self.names[worst]} is left with {norm:.3g} of its nominal value "
+            f"{self.names[worst]}{held} is left with {norm:.3g} of its nominal value "
             f"(allowed {self.tolerance:.3g})",
         )
 

@@ -7,6 +7,9 @@ from .participant import OK, Status, StatusKind
 from .way_back import Journal, deserialising
 from .worker_process import WorkerLostError, WorkerProcess
 
+snapshot_interval = 100
+"""Steps from one serialised state to the next: so many are repeated after a crash at most."""
+
 logger = logging.getLogger(__name__)
 
 
@@ -48,6 +51,7 @@ class ResumedProcess:
         self._name, self._setup, self._timeout = name, setup, timeout
         self._pending = b""
         self._crashed_at: float | None = None
+        self._numbers = 0
         self._worker: WorkerProcess | None = self._start()
         self.started = self._worker.started
 
@@ -82,12 +86,32 @@ class ResumedProcess:
         self.journal.confirm()
         return report
 
-    def save_serialised(self, state: int) -> Report:
-        """Save the present state under a number, as bytes too; the way back begins there."""
-        report = self.ask(_saving_serialised(state), "serialising a state")
+    def save(self) -> tuple[int, Report]:
+        """Save the present state, as bytes too from time to time; return its number."""
+        if self.journal.steps >= snapshot_interval:
+            return self.save_serialised()
+        self._numbers += 1
+        self.do_later(bytes([Operation.SAVE]) + number.pack(self._numbers))
+        self.journal.keep(self._numbers)
+        return self._numbers, Report(OK)
+
+    def save_serialised(self) -> tuple[int, Report]:
+        """Save the present state as bytes, too; the way back begins there."""
+        self._numbers += 1
+        report = self.ask(_saving_serialised(self._numbers), "serialising a state")
         if report.status is OK:
-            self.journal.keep_serialised(state, report.payload, present=True)
-        return report
+            self.journal.keep_serialised(self._numbers, report.payload, present=True)
+        return self._numbers, report
+
+    def restore(self, state: int) -> None:
+        """Go back to a saved state, with the next operation that has an answer."""
+        self.do_later(bytes([Operation.RESTORE]) + number.pack(state))
+        self.journal.go_back(state)
+
+    def release(self, state: int) -> None:
+        """Give up a saved state."""
+        if self.journal.drop(state):
+            self.do_later(bytes([Operation.RELEASE]) + number.pack(state))
 
     def serialise(self, state: int) -> Report:
         """Ask for the bytes of a saved state, a new process where the old one has ended."""
@@ -107,12 +131,13 @@ class ResumedProcess:
         except WorkerLostError as lost:
             return Report(Status(StatusKind.FATAL, f"a new process {lost.reason} in {what}"))
 
-    def deserialise(self, state: int, data: bytes) -> Report:
-        """Make `data` the saved state of a number."""
-        report = self.ask(deserialising(state, data), "deserialising a state")
+    def deserialise(self, data: bytes) -> tuple[int, Report]:
+        """Make a saved state of `data`; return its number."""
+        self._numbers += 1
+        report = self.ask(deserialising(self._numbers, data), "deserialising a state")
         if report.status is OK:
-            self.journal.keep_serialised(state, data, present=False)
-        return report
+            self.journal.keep_serialised(self._numbers, data, present=False)
+        return self._numbers, report
 
     def end(self) -> None:
         """End the process; harmless when repeated."""

@@ -129,7 +129,8 @@ def _check(stage: Stage, time: float, step_size: float) -> Failure | None:
         raise RollbackError(
             f"{participant.name} claims to restore saved states but does not: "
             f"{names[place]} after a step of {step_size:.6g} s from t = {time:.9g} s was "
-            f"{first[place]!r}, and {second[place]!r} when it was repeated."
+            f"{float(first[place])!r}, and {float(second[place])!r} when it was repeated; some of "
+            "its state stays behind, or it answers the same calls in different ways."
         )
     stage.go_back()
     return None

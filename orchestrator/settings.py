@@ -46,8 +46,11 @@ class MasterSettings:
         Switches allowed within `switch_window`.
     switch_window : float or None
         Time span for `max_switches` [s]; 1e-6 of the run by default, which lets fast switching
-        pass. Impacts that accumulate want less patience, such as 20 switches in a tenth of the
-        time between the first two.
+        pass.
+    accumulation_share : float
+        Switches whose intervals shrink by a constant ratio end the run when what is left of the
+        series is less than this over what has passed of it. The smaller, the more of them are
+        located, and the shorter a contact may be that is none of a rigid body.
     max_rejections : int
         Rejected attempts in a row that end the run.
     max_attempts : int or None
@@ -75,6 +78,7 @@ class MasterSettings:
     event_time_tolerance: float = 1e-9
     max_switches: int = 50
     switch_window: float | None = None
+    accumulation_share: float = 1e-3
     max_rejections: int = 100
     max_attempts: int | None = None
     max_wall_time: float | None = None
@@ -96,6 +100,7 @@ class MasterSettings:
             "event_tolerance",
             "event_time_tolerance",
             "switch_window",
+            "accumulation_share",
             "max_wall_time",
         ):
             value = getattr(self, name)

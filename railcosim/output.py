@@ -10,6 +10,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from .errors import InputError, RunError
 from .reserved_file import ReservedFile
 from .table import columns
@@ -17,7 +19,6 @@ from .table import columns
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    import numpy as np
     import xarray as xr
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
@@ -145,8 +146,16 @@ def _write_netcdf(passage: xr.Dataset, path: Path) -> None:
     # HDF5 takes a slash for a group; names of FMU variables may have one.
     slashed = [str(name) for name in passage.data_vars if "/" in str(name)]
     renamed = passage.rename({name: name.replace("/", "|") for name in slashed})
-    with ReservedFile(path, OVERHEAD + passage.nbytes * 5 // 4) as file:
-        renamed.to_netcdf(file, engine="h5netcdf")
+    encoded = renamed.assign(
+        {name: _encoded(item) for name, item in renamed.items() if item.dtype.kind == "U"}
+    )
+    with ReservedFile(path, OVERHEAD + encoded.nbytes * 5 // 4) as file:
+        encoded.to_netcdf(file, engine="h5netcdf")
+
+
+def _encoded(texts: xr.DataArray) -> xr.DataArray:
+    """Encode ASCII texts at once, as xarray does one by one in six times the memory."""
+    return texts.copy(data=texts.to_numpy().astype(np.bytes_)).assign_attrs(_Encoding="utf-8")
 
 
 def _write_csv(passage: xr.Dataset, path: Path) -> None:

@@ -24,6 +24,9 @@ HEADERS = Path(str(fmpy.__file__)).parent / "c-code"
 FMI = (
     "fmi2.c",
     "fmi2_values.c",
+    "fmi3.c",
+    "fmi3_absent.c",
+    "fmi3_values.c",
     "fmu.c",
     "fmu_state.c",
     "fmu_step.c",
@@ -239,7 +242,7 @@ def _run(arguments: Sequence[str]) -> None:
     """Run the C compiler in the folder of the sources, so that it sees no path."""
     if find_spec("ziglang") is None:
         raise CompilationError(
-            "the C compiler is missing: install the package 'ziglang' (pip install ziglang)"
+            "the C compiler is missing: install the package 'ziglang' (pip install 'railcosim[native]')"
         )
     command = [sys.executable, "-m", "ziglang", "cc", *arguments]
     try:

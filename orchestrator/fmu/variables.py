@@ -6,7 +6,7 @@ from itertools import product
 from math import inf, prod
 from typing import Any
 
-from ..errors import FmuError
+from ..errors import FmuError, WiringError
 from ..participant import Variable
 from .description import Storage
 from .kinds import Kind, fmi2_kinds, fmi3_kinds
@@ -32,7 +32,8 @@ def read_variables(file: str, model: Any) -> FoundVariables:  # noqa: ANN401 - f
     Raises
     ------
     FmuError
-        When an element of an array has the name of another variable.
+        When an element of an array has the name of another variable, or bounds or nominal value of
+        a variable are none.
     """
     kinds = fmi2_kinds if model.fmiVersion == "2.0" else fmi3_kinds
     found = FoundVariables()
@@ -48,7 +49,10 @@ def read_variables(file: str, model: Any) -> FoundVariables:  # noqa: ANN401 - f
         for element, name in enumerate(element_names(item)):
             if name in found.variables:
                 raise FmuError(f"{file}: two variables are called {name!r}.")
-            found.variables[name] = _variable(item, name, kind.type)
+            try:
+                found.variables[name] = _variable(item, name, kind.type)
+            except WiringError as error:
+                raise FmuError(f"{file}: {error}") from error
             found.storage[name] = Storage(reference, kind, element, size)
             if _takes_start(item):
                 found.settable.add(name)

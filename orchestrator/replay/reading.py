@@ -78,8 +78,8 @@ def _read(folder: Path) -> ReplayCase:
         sources=sources,
         connections=tuple(_connection(item) for item in document["connections"]),
         settings=MasterSettings(**document["settings"]),
-        events=tuple(document["events"]),
-        observed=tuple(document["observed"]),
+        events=tuple(map(str, document["events"])),
+        observed=tuple(map(str, document["observed"])),
         start_time=float(document["start_time"]),
         stop_time=float(document["stop_time"]),
         error=str(document["error"]),
@@ -92,11 +92,12 @@ def _source(item: Mapping[str, Any], folder: Path) -> FmuSource:
     path = folder / "fmus" / f"{digest}.fmu"
     if not digest.isalnum() or sha256(path.read_bytes()).hexdigest() != digest:
         raise ValueError(f"the content of {item['file']} is not the one that it was")
+    timeout = item["timeout"]
     return FmuSource(
         path=path,
         name=str(item["name"]),
         start_values=dict(item["start_values"]),
-        timeout=item["timeout"],
+        timeout=None if timeout is None else float(timeout),
     )
 
 

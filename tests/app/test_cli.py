@@ -1,4 +1,5 @@
 import json
+import signal
 import subprocess
 import sys
 
@@ -37,7 +38,7 @@ def runs(monkeypatch, make_passage):
             distance = DISTANCE if complete else DISTANCE[:2]
             return make_passage(distance, scenario, complete=complete, unreliable=unreliable)
 
-        monkeypatch.setattr(cli, "run_passage", run_passage)
+        monkeypatch.setattr("railcosim.commands.run.run_passage", run_passage)
         return seen
 
     return runs
@@ -176,7 +177,7 @@ def test_a_wrong_result_is_written_and_ends_with_1(call, runs, tmp_path):
 @pytest.mark.parametrize(("holds", "code"), [(True, 0), (None, 0), (False, 1)])
 def test_check_prints_verdicts_and_ends_with_1_if_one_fails(call, monkeypatch, holds, code):
     verdict = Verdict(claim="states are freed", holds=holds, detail="10 bytes per state")
-    monkeypatch.setattr(cli, "check_fmu", lambda *_, **__: [verdict])
+    monkeypatch.setattr("railcosim.commands.check.check_fmu", lambda *_, **__: [verdict])
     result = call("check", "some.fmu")
     assert result.exit_code == code
     assert "10 bytes per state" in result.stdout
@@ -229,13 +230,24 @@ def test_build_says_where_it_cannot_write(call, tmp_path):
         (["run", "--set", "master.min_step=1"], "master.min_step is 1 s"),
     ],
 )
-def test_wrong_command_lines_end_with_2_and_one_line(arguments, message):
-    command = [sys.executable, "-m", "railcosim", *arguments]
+def test_wrong_command_lines_end_with_2_and_one_line(arguments, message, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["railcosim", *arguments])
+    monkeypatch.setattr(signal, "signal", lambda *_: None)
+    with pytest.raises(SystemExit) as end:
+        cli.main()
+    out, err = capsys.readouterr()
+    assert end.value.code == 2
+    assert message in err
+    assert err.count("\n") == 1
+    assert out == ""
+
+
+def test_a_wrong_command_line_of_the_module_ends_the_same_way():
+    command = [sys.executable, "-m", "railcosim", "--nosuch"]
     answer = subprocess.run(command, check=False, capture_output=True, text=True)
-    assert answer.returncode == 2
-    assert message in answer.stderr
+    assert (answer.returncode, answer.stdout) == (2, "")
+    assert "--nosuch" in answer.stderr
     assert answer.stderr.count("\n") == 1
-    assert answer.stdout == ""
 
 
 def test_a_passage_that_fails_keeps_its_result_and_can_be_replayed(tmp_path):

@@ -12,7 +12,7 @@ from railcosim.coupled_system import (
 from railcosim.dataset import count
 from railcosim.master_section import Master
 from railcosim.motion import speed_law, travel_time
-from railcosim.passage import build_for
+from railcosim.builds import build_for
 from railcosim.scenario import Scenario
 from railcosim.sections import Flat, Run, Track, Vehicle
 from railcosim.signals import SIGNALS

@@ -12,7 +12,8 @@ from orchestrator.ssp import open_system
 from railcosim.cosim import run_system
 from railcosim.cosim_options import CosimOptions
 from railcosim.coupled_system import connections, indicators, master_settings
-from railcosim.passage import build_for, run_passage
+from railcosim.builds import build_for
+from railcosim.passage import run_passage
 from railcosim.passage_package import ensure_package
 from railcosim.scenario import Scenario
 from railcosim.sections import Flat, Run

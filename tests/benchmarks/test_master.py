@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.xdist_group("benchmark")  # they share one run
+
 root = Path(__file__).resolve().parents[2]
 
 limits = {

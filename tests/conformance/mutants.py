@@ -8,12 +8,13 @@ from functools import wraps
 
 import pytest
 
-from orchestrator import ErrorControl, FixedStep, FmuParticipant, loop, rollback
+from orchestrator import ErrorControl, FixedStep, FmuParticipant, rollback
 from orchestrator.decision import Cause
 from orchestrator.events import Switches
 from orchestrator.newton import NewtonCoupling
 from orchestrator.prediction import History
 from orchestrator.quasi_newton import FixedPoint
+from orchestrator.rejection import Rejection
 from orchestrator.stage import Stage
 
 
@@ -115,7 +116,7 @@ def ignores_min_step(patch):
 
 def forgives_every_error(patch):
     """Not one error in a row is forgiven, but any number."""
-    after(patch, loop.Loop, "_reject", lambda ours: setattr(ours, "_error_forgiven", False))
+    after(patch, Rejection, "reject", lambda ours: setattr(ours, "_error_forgiven", False))
 
 
 def believes_every_claim(patch):

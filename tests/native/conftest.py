@@ -1,3 +1,5 @@
+import zipfile
+
 import pytest
 
 from build_fmus import Structure, ensure_native_fmus
@@ -6,6 +8,7 @@ from fmu_src.native.model_resources import masses_resource, track_resource, vehi
 from track_fmu.parameters import TrackParameters
 
 from .contact_twins import ContactPair, MassesPair
+from .fmi_calls import Calls
 from .library import NativeModel, load
 from .twins import TrackPair, VehiclePair
 
@@ -96,4 +99,30 @@ def small():
 def native_fmus(tmp_path_factory, small):
     """FMUs for this machine by version of FMI."""
     folder = tmp_path_factory.mktemp("fmus")
-    return {version: ensure_native_fmus(folder, small, fmi_version=version) for version in (2,)}
+    return {version: ensure_native_fmus(folder, small, fmi_version=version) for version in (2, 3)}
+
+
+@pytest.fixture(scope="session")
+def unpacked(native_fmus, tmp_path_factory):
+    """Folders of the unpacked FMUs by version and model."""
+    folders = {}
+    for version, pair in native_fmus.items():
+        for model in ("track", "vehicle"):
+            folders[version, model] = tmp_path_factory.mktemp(f"{model}{version}")
+            with zipfile.ZipFile(getattr(pair, model)) as archive:
+                archive.extractall(folders[version, model])
+    return folders
+
+
+@pytest.fixture
+def fmi(unpacked):
+    """Makes instances of the unpacked FMUs, and frees them at the end."""
+    opened = []
+
+    def make(version, model, **options):
+        opened.append(Calls(unpacked[version, model], **options))
+        return opened[-1]
+
+    yield make
+    for instance in opened:
+        instance.free()

@@ -186,7 +186,9 @@ def accumulating(t, rate=20.0):
 def test_switches_without_end_are_an_error_that_names_the_indicator():
     master = Master(
         System([Signals(bounce=accumulating)], []),
-        MasterSettings(tolerance=1.0, max_switches=20, event_time_tolerance=1e-12),
+        MasterSettings(
+            tolerance=1.0, max_switches=20, event_time_tolerance=1e-12, accumulation_share=1e-9
+        ),
         controller=ErrorControl(initial_step=1e-3, min_step=1e-12, max_step=1e-3),
         events=["signals.bounce"],
     )

@@ -78,6 +78,10 @@ def in_description(old, new):
         (in_description(b"causality=", b"casuality="), "the model description is not valid: "),
         (in_description(b"CoSimulation", b"ModelExchange"), "not valid: "),
         (
+            in_description(b"<Real", b'<Real min="2" max="1"'),
+            r"force: minimum 2\.0 must not exceed maximum 1\.0\.",
+        ),
+        (
             lambda name, data: None if name.startswith("binaries/") else data,
             "has no binary for .*, only for no platform at all",
         ),

@@ -1,5 +1,6 @@
 """Replay files: a failure repeats itself from what was written about it."""
 
+import json
 import zipfile
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from orchestrator import (
     Connection,
     FmuSource,
+    InputError,
     Linear,
     Master,
     MasterSettings,
@@ -144,6 +146,31 @@ def test_what_did_not_fail_again_is_not_called_reproduced(fmu, tmp_path):
     failing_run(fmu, tmp_path / "r.replay", two=two, algorithm="gauss_seidel", **fixed)
     repetition = repeated(tmp_path / "r.replay")
     assert (repetition.reproduced, repetition.message) == (False, "")
+
+
+@pytest.mark.parametrize(
+    ("where", "key", "value", "message"),
+    [
+        ("attempt", "values", [0.0], "1 exchanged values and 0 indicators, the system 2 and 0"),
+        ("attempt", "slope", [0.0], "it belongs to another one"),
+        ("attempt", "indicators", [0.0], "2 exchanged values and 1 indicators"),
+        (None, "events", [3], "is not of the form"),
+        (None, "stop_time", "soon", "no replay file"),
+    ],
+)
+def test_forged_files_are_refused_in_a_sentence(fmu, tmp_path, where, key, value, message):
+    path = tmp_path / "r.replay"
+    failing_run(fmu, path, two={"trouble": 9}, min_step=1e-3, **fixed)
+    with zipfile.ZipFile(path) as archive:
+        contents = {name: archive.read(name) for name in archive.namelist()}
+    document = json.loads(contents["replay.json"])
+    (document if where is None else document[where])[key] = value
+    contents["replay.json"] = json.dumps(document)
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, content in contents.items():
+            archive.writestr(name, content)
+    with pytest.raises(InputError, match=message):
+        repeated(path)
 
 
 def test_other_files_are_refused(tmp_path):

@@ -65,7 +65,7 @@ def test_the_numbers_as_json(put, call):
     [
         ("a.y", "--bond a.y must name two outputs"),
         ("a.y,b.nothing", "b has no variable 'nothing'"),
-        ("a.y,a.y", "a.y has the unit"),
+        ("a.y,a.y", "a.y declares no unit"),
     ],
 )
 def test_what_is_no_bond_ends_with_2(put, call, bond, part):

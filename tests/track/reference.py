@@ -7,6 +7,7 @@ from track_fmu.assembly import assemble
 from track_fmu.modal import compute_basis
 from track_fmu.parameters import TrackParameters
 from track_fmu.reduction import reduce_track
+from track_fmu.track_model import TrackModel, TrackOptions
 
 MIDSPAN = 25.5 * 0.65  # middle of bay 26 of 50
 STATIC_LOAD = 117_720.0
@@ -39,3 +40,8 @@ def direct_receptance(stiffness, damping, mass, frequency, dof):
     force = np.zeros(stiffness.shape[0], dtype=complex)
     force[dof] = 1.0
     return spsolve((stiffness + 1j * omega * damping - omega**2 * mass).tocsc(), force)[dof]
+
+
+def one_wheel(track, *, ballast=None, pad=None, **options):
+    """Return the model of a track under one wheel."""
+    return TrackModel(track.reduced, TrackOptions(wheels=1, **options), ballast=ballast, pad=pad)

@@ -37,6 +37,13 @@ rc_status rc_fmu_refuse(rc_fmu *fmu, rc_status status, const char *format, ...)
     return status;
 }
 
+/* The same with the sentence that is in `message` already. */
+static rc_status refuse_as_said(const rc_fmu *fmu)
+{
+    report(fmu, RC_ERROR, fmu->message);
+    return RC_ERROR;
+}
+
 rc_status rc_fmu_pass(rc_fmu *fmu, rc_status status)
 {
     if (status != RC_OK)
@@ -153,13 +160,13 @@ static rc_status check_token(rc_fmu *fmu, const char *token, const char *folder)
     size_t size;
     char *build = rc_read_resource(folder, BUILD_FILE, &size, fmu->message, sizeof fmu->message);
     if (build == NULL)
-        return rc_fmu_refuse(fmu, RC_ERROR, "%s", fmu->message);
+        return refuse_as_said(fmu);
     build[strcspn(build, "\r\n")] = '\0';
     const rc_status status =
         strcmp(build, token) == 0
             ? RC_OK
-            : rc_fmu_refuse(fmu, RC_ERROR, "the resources are those of build %.64s, the model "
-                                           "description that of %.64s; unpack the FMU again",
+            : rc_fmu_refuse(fmu, RC_ERROR, "the resources are of build %.64s, the model "
+                                           "description is of %.64s; unpack the FMU again",
                             build, token);
     free(build);
     return status;
@@ -184,12 +191,10 @@ static rc_status create(rc_fmu *fmu, const rc_fmu_request *request)
     fmu->resource = rc_read_resource(request->folder, MODEL_FILE, &size, fmu->message,
                                      sizeof fmu->message);
     if (fmu->resource == NULL)
-        return rc_fmu_refuse(fmu, RC_ERROR, "%s", fmu->message);
+        return refuse_as_said(fmu);
     fmu->model = rc_create(rc_library_class(), fmu->resource, size, fmu->message);
-    if (fmu->model == NULL) {
-        report(fmu, RC_ERROR, fmu->message);
-        return RC_ERROR;
-    }
+    if (fmu->model == NULL)
+        return refuse_as_said(fmu);
     find_groups(fmu);
     return claim_memory(fmu);
 }

@@ -63,6 +63,15 @@ static const char *type_name(rc_type type)
     return names[type];
 }
 
+#define LONGEST_NAME 64
+
+/* The name of a variable that there is, in `place`, which has room for it. */
+static const char *name_in(const rc_model *model, uint32_t variable, char *place)
+{
+    (void)rc_name(model, variable, place, LONGEST_NAME);
+    return place;
+}
+
 /* The group of a variable of the type asked for; NULL and a sentence if it is none. */
 static const rc_group *typed_group(rc_model *model, uint32_t variable, rc_type type)
 {
@@ -73,8 +82,9 @@ static const rc_group *typed_group(rc_model *model, uint32_t variable, rc_type t
         return NULL;
     }
     if (group->type != type) {
-        rc_fail(model, RC_ERROR, "%s is a %s, not a %s", group->name, type_name(group->type),
-                type_name(type));
+        char name[LONGEST_NAME];
+        rc_fail(model, RC_ERROR, "%s is a %s, not a %s", name_in(model, variable, name),
+                type_name(group->type), type_name(type));
         return NULL;
     }
     return group;
@@ -103,19 +113,22 @@ rc_status rc_get(rc_model *model, rc_type type, const uint32_t *variables, size_
     return RC_OK;
 }
 
-/* Whether a variable of this group may be set now. */
-static rc_status may_set(rc_model *model, const rc_group *group)
+/* Whether a variable may be set now. */
+static rc_status may_set(rc_model *model, uint32_t variable)
 {
-    if (group->causality == RC_INPUT)
+    const rc_causality causality = rc_group_of(model, variable)->causality;
+    char name[LONGEST_NAME];
+    if (causality == RC_INPUT)
         return RC_OK;
-    if (group->causality == RC_OUTPUT)
-        return rc_fail(model, RC_ERROR, "%s is an output and cannot be set", group->name);
-    if (group->causality == RC_CONSTANT)
+    name_in(model, variable, name);
+    if (causality == RC_OUTPUT)
+        return rc_fail(model, RC_ERROR, "%s is an output and cannot be set", name);
+    if (causality == RC_CONSTANT)
         return rc_fail(model, RC_ERROR, "%s is fixed in this FMU, whose modes were computed with "
-                                        "it; build another FMU", group->name);
+                                        "it; build another FMU", name);
     if (model->head->phase == RC_STEPPING)
         return rc_fail(model, RC_ERROR, "%s is fixed once the initialisation has ended; set it "
-                                        "before", group->name);
+                                        "before", name);
     return RC_OK;
 }
 
@@ -133,7 +146,7 @@ rc_status rc_set(rc_model *model, rc_type type, const uint32_t *variables, size_
 {
     for (size_t i = 0; i < count; ++i) {
         const rc_group *group = typed_group(model, variables[i], type);
-        if (group == NULL || may_set(model, group) != RC_OK)
+        if (group == NULL || may_set(model, variables[i]) != RC_OK)
             return RC_ERROR;
     }
     for (size_t i = 0; i < count; ++i) {
@@ -150,7 +163,7 @@ rc_status rc_set_group(rc_model *model, size_t number, const double *values)
     const rc_group *group = &model->groups[number];
     if (group->type == RC_TEXT)
         return rc_fail(model, RC_ERROR, "%s is a text, not a number", group->name);
-    if (may_set(model, group) != RC_OK)
+    if (may_set(model, group->first) != RC_OK)
         return RC_ERROR;
     memcpy(model->values + model->slots[number], values, group->count * sizeof(double));
     note_change(model);
@@ -168,7 +181,7 @@ rc_status rc_get_text(rc_model *model, uint32_t variable, const char **text)
 rc_status rc_set_text(rc_model *model, uint32_t variable, const char *text)
 {
     const rc_group *group = typed_group(model, variable, RC_TEXT);
-    if (group == NULL || may_set(model, group) != RC_OK)
+    if (group == NULL || may_set(model, variable) != RC_OK)
         return RC_ERROR;
     const size_t length = strlen(text);
     if (length >= RC_TEXT_SIZE)

@@ -1,0 +1,124 @@
+"""`railcosim run`: one passage."""
+
+import json
+from enum import StrEnum
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+import xarray as xr
+from rich.console import Console
+
+from ..builds import usual_build
+from ..figures import describe, draw_passage
+from ..notes import notes
+from ..output import FIGURE_SUFFIXES, check_writable, write_dataset, write_figure
+from ..passage import run_passage
+from ..progress import progress_bar
+from ..scenario import Scenario
+from ..scenario_file import read_scenario
+from ..summary import summarise
+from ..summary_table import summary_table
+from .endings import check_result, exit_codes, keeping, say
+from .options import (
+    FmuKind,
+    Isolate,
+    Output,
+    Quiet,
+    Replay,
+    Timeout,
+    check_output,
+    replay_file,
+    time_limit,
+)
+from .stdout import stdout_for_results
+
+
+class ContactName(StrEnum):
+    """Which of the two FMUs has the contacts."""
+
+    VEHICLE = "vehicle"
+    TRACK = "track"
+
+
+def run(
+    scenario: Annotated[
+        Path | None, typer.Argument(metavar="SCENARIO.toml", help="The paper's case without.")
+    ] = None,
+    *,
+    overrides: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="KEY=VALUE", help="Replace a key, as in flat.depth=1e-3."),
+    ] = None,
+    fmus: Annotated[
+        FmuKind | None,
+        typer.Option(help="Which build of the FMUs runs; native, if it has been built, without."),
+    ] = None,
+    contact: Annotated[
+        ContactName, typer.Option(help="Which FMU has the contacts.")
+    ] = ContactName.VEHICLE,
+    isolate: Isolate = False,
+    timeout: Timeout = None,
+    output: Output = None,
+    replay: Replay = None,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Figure: .png, .pdf or .svg.")
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the numbers as one JSON object, SI units.")
+    ] = False,
+    quiet: Quiet = False,
+) -> None:
+    """Co-simulate one passage of a vehicle over a track."""
+    with exit_codes():
+        case = read_scenario(scenario, overrides or ())
+        check_output(output)
+        if plot is not None:
+            check_writable(plot, option="--plot", suffixes=FIGURE_SUFFIXES)
+        limit = time_limit(timeout, isolate=isolate)
+        for note in notes(case, contact.value):
+            say(f"note: {note}")
+        with keeping(output), stdout_for_results():
+            passage = _followed_run(
+                case,
+                usual_build(contact.value) if fmus is None else fmus.value,
+                contact,
+                timeout=limit,
+                replay=replay_file(replay, output),
+                quiet=quiet,
+            )
+        if output is not None:
+            write_dataset(passage, output)
+        if plot is not None:
+            write_figure(draw_passage(passage), plot)
+        summary = summarise(passage)
+        if as_json:
+            typer.echo(json.dumps(summary.as_dict(), indent=2, allow_nan=False))
+        elif not quiet:
+            Console().print(summary_table(summary, describe(case)))
+        check_result(passage)
+
+
+def _followed_run(
+    case: Scenario,
+    fmus: str,
+    contact: ContactName,
+    *,
+    timeout: float | None,
+    replay: Path | None,
+    quiet: bool,
+) -> xr.Dataset:
+    """Run with a progress bar on stderr, or without a word."""
+    run_case = partial(
+        run_passage,
+        case,
+        fmus=fmus,
+        contact=contact.value,
+        timeout=timeout,
+        replay=replay,
+    )
+    if quiet:
+        return run_case()
+    with progress_bar(Console(stderr=True)) as report:
+        return run_case(notify=say, report=report)
