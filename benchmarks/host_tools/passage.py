@@ -20,7 +20,8 @@ def passage_job(fmus: FmuPaths, *, package: Path | None = None) -> Job:
     Parameters
     ----------
     fmus : FmuPaths
-        TrackContact and Masses of the default size; their start values are this passage.
+        TrackContact and Masses of the default size; their start values are this passage but for
+        the speed at which the rail under the wheels starts.
     package : Path, optional
         The system description to be read by the host, with these FMUs.
     """
@@ -32,11 +33,16 @@ def passage_job(fmus: FmuPaths, *, package: Path | None = None) -> Job:
         step_size=STEP,
         steps=round(description.stop_time / STEP),
         watched=[("track", "wheel[1].contact_force")],
-        parameters={},
+        parameters={"track": {"initial_speed": _start(paths["vehicle"], "speed")}},
         inputs={name: _inputs(path) for name, path in paths.items()},
         package=str(package) if package else "",
         each_step=True,
     )
+
+
+def _start(fmu: str, name: str) -> float:
+    variables = fmpy.read_model_description(fmu).modelVariables
+    return next(float(variable.start) for variable in variables if variable.name == name)
 
 
 def _inputs(fmu: str) -> dict[str, float]:

@@ -1,6 +1,7 @@
 """Runs the job in CoFmuPy, with its Jacobi algorithm."""
 
 from cofmupy import Coordinator
+from cofmupy.wrappers import FmuXHandler
 from job import Host, Job, run
 
 
@@ -43,6 +44,18 @@ def start(job: Job, name: str) -> dict[str, float]:
     """Return parameters and inputs; it starts with inputs of zero where none are given."""
     return {**job.parameters.get(name, {}), **job.inputs.get(name, {})}
 
+
+def real_outputs(handler: FmuXHandler) -> list[str]:
+    """Return the names of the outputs that are real numbers."""
+    return [
+        variable.name
+        for variable in handler.description.modelVariables
+        if variable.causality == "output" and variable.type in {"Real", "Float64"}
+    ]
+
+
+# CoFmuPy 1.0.0 reads every output as a real number, whatever it is.
+FmuXHandler.get_output_names = real_outputs
 
 job = Job.read()
 run(job, CoFmuPy(job))

@@ -12,9 +12,11 @@ class Ecos(Host):
         self.watched = ["::".join(end) for end in job.watched]
         if job.package:
             self.simulation = EcosSimulation(job.step_size, ssp_path=job.package)
+            values = "values"  # name of the parameter sets in the package; silently none without
         else:
             self.simulation = EcosSimulation(job.step_size, structure=assemble(job))
-        if not self.simulation.init(0, "start" if job.parameters else None):
+            values = "start" if job.parameters else None
+        if not self.simulation.init(0, values):
             raise RuntimeError(EcosLib.get_last_error())
 
     def step(self, count: int) -> None:
