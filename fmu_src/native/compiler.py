@@ -242,7 +242,8 @@ def _run(arguments: Sequence[str]) -> None:
     """Run the C compiler in the folder of the sources, so that it sees no path."""
     if find_spec("ziglang") is None:
         raise CompilationError(
-            "the C compiler is missing: install the package 'ziglang' (pip install 'railcosim[native]')"
+            "the C compiler is missing: install the package 'ziglang' "
+            "(pip install 'railcosim[native]')"
         )
     command = [sys.executable, "-m", "ziglang", "cc", *arguments]
     try:

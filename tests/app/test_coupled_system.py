@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from orchestrator import MasterSettings
+from railcosim.builds import build_for
 from railcosim.coupled_system import (
     connect,
     indicators,
@@ -12,7 +13,6 @@ from railcosim.coupled_system import (
 from railcosim.dataset import count
 from railcosim.master_section import Master
 from railcosim.motion import speed_law, travel_time
-from railcosim.builds import build_for
 from railcosim.scenario import Scenario
 from railcosim.sections import Flat, Run, Track, Vehicle
 from railcosim.signals import SIGNALS

@@ -9,10 +9,10 @@ import pytest
 from build_fmus import default_directory
 from orchestrator import System
 from orchestrator.ssp import open_system
+from railcosim.builds import build_for
 from railcosim.cosim import run_system
 from railcosim.cosim_options import CosimOptions
 from railcosim.coupled_system import connections, indicators, master_settings
-from railcosim.builds import build_for
 from railcosim.passage import run_passage
 from railcosim.passage_package import ensure_package
 from railcosim.scenario import Scenario

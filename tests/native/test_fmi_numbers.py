@@ -1,54 +1,13 @@
-"""What the FMUs compute: the same in both versions, inputs over a step, derivatives, states."""
+"""What the FMUs compute: the same in both versions, inputs over a step, derivatives."""
 
-import subprocess
-import sys
 from ctypes import byref, c_double, c_int, c_size_t
-from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
 
 from .fmi_calls import DISCARD, ERROR, OK, references
-
-both_versions = pytest.mark.parametrize("version", [2, 3])
-both = pytest.mark.parametrize("model", ["track", "vehicle"])
-LOAD = 117_720.0  # N, static
-STEP = 1e-4
-
-
-def over_the_track(time):
-    """Inputs of the track at a time: position, and force with an oscillation."""
-    force = LOAD * (1.0 + 0.2 * np.sin(500.0 * time))
-    return {
-        "wheel[1].position": 4.0 + 11.0 * time,
-        "wheel[2].position": 2.2 + 11.0 * time,
-        "wheel[1].contact_force": float(force),
-        "wheel[2].contact_force": LOAD,
-    }
-
-
-def under_the_vehicle(time):
-    return {f"wheel[{k}].rail_displacement": 1e-3 * float(np.cos(300.0 * time)) for k in (1, 2)}
-
-
-INPUTS = {"track": over_the_track, "vehicle": under_the_vehicle}
-OUTPUTS = {
-    "track": [
-        f"wheel[{k}].{what}" for k in (1, 2) for what in ("rail_displacement", "rail_velocity")
-    ],
-    "vehicle": [f"wheel[{k}].{what}" for k in (1, 2) for what in ("contact_force", "gap")],
-}
-
-
-def put_all(instance, values):
-    for name, value in values.items():
-        instance.must(instance.put(name, value))
-
-
-def started(instance, model, **values):
-    put_all(instance, INPUTS[model](0.0))
-    return instance.start(**values)
+from .fmi_inputs import INPUTS, OUTPUTS, STEP, both, both_versions, over_the_track, put_all, started
 
 
 @both
@@ -188,68 +147,6 @@ def test_directional_derivatives_are_those_over_the_last_step(fmi, version, mode
         forward = [instance.sensitivity(unknowns, knowns, s)[1] for s in ([1.0, 0.0], [0.0, 1.0])]
         np.testing.assert_allclose(found, np.array(forward) @ seed, rtol=1e-12)
     instance.must(instance.call("FreeFMUstate", byref(state)))
-
-
-GO_ON = """
-import sys
-from pathlib import Path
-sys.path.insert(0, {root!r})
-from tests.native.fmi_calls import Calls, OK
-instance = Calls({folder!r})
-status, state = instance.deserialise(Path({data!r}).read_bytes())
-assert status == OK, instance.messages
-instance.must(instance.call("SetFMUstate", state))
-for n in range(10, 20):
-    instance.must(instance.step(n * 1e-4, 1e-4)[0])
-print([value.hex() for value in instance.get(*{outputs!r})])
-"""
-
-
-@both_versions
-@both
-def test_a_serialised_state_goes_on_in_another_process(fmi, tmp_path, version, model):
-    instance = started(fmi(version, model), model)
-    for n in range(10):
-        put_all(instance, INPUTS[model](n * STEP))
-        instance.must(instance.step(n * STEP, STEP)[0])
-    state = instance.save()
-    (tmp_path / "state").write_bytes(instance.serialise(state))
-    for n in range(10, 20):
-        instance.must(instance.step(n * STEP, STEP)[0])
-    script = GO_ON.format(
-        root=str(Path(__file__).parents[2]),
-        folder=str(instance.folder),
-        data=str(tmp_path / "state"),
-        outputs=OUTPUTS[model],
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True
-    )
-    assert done.stdout.strip() == str([value.hex() for value in instance.get(*OUTPUTS[model])])
-    instance.must(instance.call("FreeFMUstate", byref(state)))
-    assert state.value is None
-
-
-@both_versions
-@both
-def test_damaged_states_are_refused_in_words(fmi, version, model):
-    instance = started(fmi(version, model), model)
-    instance.must(instance.step(0.0, STEP)[0])
-    data = instance.serialise(instance.save())
-    before = instance.get(*OUTPUTS[model])
-    places = {0, 4, 8, 12, 16, 40, len(data) // 2, len(data) - 1}
-    for place in places:
-        damaged = bytearray(data)
-        damaged[place] ^= 0x10
-        status, state = instance.deserialise(bytes(damaged))
-        assert (status, state.value) == (ERROR, None)
-        assert "state" in instance.messages.pop()[1]
-    for size in (0, 1, 15, 16, 100, len(data) - 1):
-        assert instance.deserialise(data[:size])[0] == ERROR
-    assert instance.deserialise(data + b"x")[0] == ERROR
-    assert instance.get(*OUTPUTS[model]) == before
-    other = fmi(version, "vehicle" if model == "track" else "track")
-    assert other.deserialise(data)[0] == ERROR
 
 
 def test_steps_end_at_switches_of_contact_if_the_host_allows_it(fmi):

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from orchestrator import Master, Recorder
+from railcosim.builds import build_for
 from railcosim.coupled_system import connect, indicators, master_settings
 from railcosim.motion import speed_law
-from railcosim.builds import build_for
 from railcosim.scenario_file import read_scenario
 from tests.throwing import Throwing
 

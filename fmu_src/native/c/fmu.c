@@ -239,8 +239,8 @@ rc_status rc_fmu_set_experiment(rc_fmu *fmu, double start, int has_stop, double 
     if (!isfinite(start))
         return rc_fmu_refuse(fmu, RC_ERROR, "the start time is %g s, not a number", start);
     if (has_stop && !(stop >= start))
-        return rc_fmu_refuse(fmu, RC_ERROR, "the stop time of %g s is before the start time of %g s",
-                             stop, start);
+        return rc_fmu_refuse(fmu, RC_ERROR,
+                             "the stop time of %g s is before the start time of %g s", stop, start);
     fmu->head->start_time = fmu->head->reached = start;
     return RC_OK;
 }

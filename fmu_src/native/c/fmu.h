@@ -1,8 +1,8 @@
 /* An instance of an FMU, whatever version of FMI its host speaks.
  *
- * Every refusal is logged with a sentence. The complete state, for hosts that go back, is one block:
- * rc_fmu_head, the slopes of the inputs, the inputs at the last communication point, the state of
- * the model.
+ * Every refusal is logged with a sentence. The complete state, for hosts that go back, is one
+ * block: rc_fmu_head, the slopes of the inputs, the inputs at the last communication point, the
+ * state of the model.
  */
 #ifndef RC_FMU_H
 #define RC_FMU_H
