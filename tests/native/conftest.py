@@ -103,14 +103,28 @@ def native_fmus(tmp_path_factory, small):
 
 
 @pytest.fixture(scope="session")
-def unpacked(native_fmus, tmp_path_factory):
+def contact_fmus(tmp_path_factory, small):
+    """The same with the contacts on the track's side."""
+    folder = tmp_path_factory.mktemp("contact_fmus")
+    return {
+        version: ensure_native_fmus(folder, small, contact="track", fmi_version=version)
+        for version in (2, 3)
+    }
+
+
+@pytest.fixture(scope="session")
+def unpacked(native_fmus, contact_fmus, tmp_path_factory):
     """Folders of the unpacked FMUs by version and model."""
     folders = {}
-    for version, pair in native_fmus.items():
-        for model in ("track", "vehicle"):
-            folders[version, model] = tmp_path_factory.mktemp(f"{model}{version}")
-            with zipfile.ZipFile(getattr(pair, model)) as archive:
-                archive.extractall(folders[version, model])
+    for fmus, models in (
+        (native_fmus, ("track", "vehicle")),
+        (contact_fmus, ("track_contact", "masses")),
+    ):
+        for version, pair in fmus.items():
+            for model, path in zip(models, (pair.track, pair.vehicle), strict=True):
+                folders[version, model] = tmp_path_factory.mktemp(f"{model}{version}")
+                with zipfile.ZipFile(path) as archive:
+                    archive.extractall(folders[version, model])
     return folders
 
 

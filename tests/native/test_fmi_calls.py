@@ -9,7 +9,7 @@ import pytest
 from .fmi_calls import DISCARD, ERROR, OK, references
 
 both_versions = pytest.mark.parametrize("version", [2, 3])
-both = pytest.mark.parametrize("model", ["track", "vehicle"])
+both = pytest.mark.parametrize("model", ["track", "vehicle", "track_contact", "masses"])
 
 
 @both_versions
@@ -94,7 +94,9 @@ def test_counts_that_do_not_match(fmi):
 @both
 def test_discarded_steps_change_nothing(fmi, version, model):
     one, other = (fmi(version, model).start() for _ in range(2))
-    lead = "wheel[1].contact_force" if model == "track" else "wheel[1].rail_displacement"
+    lead = {"vehicle": "wheel[1].rail_displacement", "track_contact": "wheel[1].displacement"}.get(
+        model, "wheel[1].contact_force"
+    )
     names = ["wheel[1].contact_force", "wheel[1].position"]
     for instance in (one, other):
         instance.must(instance.step(0.0, 1e-4)[0])

@@ -184,7 +184,7 @@ static rc_status step_masses(rc_model *model, double step, int linear)
     own->last_line = linear ? step : *at.passed;
     own->last_ahead = linear ? 0.0 : step;
     follow(own, &at, own->last_line, rc_values(model, CONTACT_FORCE));
-    *at.time += step;
+    *at.time = model->head->time + step; /* the host's, which need not be a sum of steps */
     *at.passed = own->last_ahead;
     return RC_OK;
 }

@@ -71,7 +71,7 @@ static rc_status step_vehicle(rc_model *model, double step, int linear)
                                           "shorter step", step, MOST_SUBSTEPS, own->substep);
     own->linear = linear;
     for (size_t i = 0; i < own->wheels; ++i) {
-        const rc_way over = {.start = *from.start, .time = *from.time, .step = step,
+        const rc_way over = {.start = *from.start, .time = model->head->time, .step = step,
                           .rail_start = own->linear ? from.rail[i] : rail[i],
                           .rail_end = rail[i]};
         const rc_wheel_motion motion = rc_roll_wheel(
@@ -86,6 +86,7 @@ static rc_status step_vehicle(rc_model *model, double step, int linear)
         to.rail[i] = rail[i];
     }
     *to.start = *from.start;
+    *from.time = model->head->time; /* the host's, which need not be a sum of steps */
     *to.time = *from.time + step;
     memcpy(own->before, model->dynamic, bytes);
     memcpy(model->dynamic, own->after, bytes);
