@@ -79,7 +79,7 @@ def test_unknown_and_wrong_variables(fmi, version):
     assert instance.message.startswith("pad_stiffness is fixed in this FMU")
     instance.start()
     assert instance.put("ballast", "linear") == ERROR
-    assert instance.message.startswith("ballast is fixed once initialisation has begun")
+    assert instance.message.startswith("ballast is fixed once the initialisation has ended")
 
 
 def test_counts_that_do_not_match(fmi):

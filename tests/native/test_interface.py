@@ -64,10 +64,33 @@ def test_calls_out_of_order_are_refused(native):
     track.enter()
     with pytest.raises(NativeError, match="begun already"):
         track.enter()
-    with pytest.raises(NativeError, match="fixed once initialisation has begun"):
+    track.exit()
+    with pytest.raises(NativeError, match="fixed once the initialisation has ended"):
         track.set(initial_speed=3.0)
     with pytest.raises(NativeError, match="cannot be set"):
         track.set_group("pad[#].force", np.zeros(11))
+
+
+def test_parameters_may_be_set_until_the_initialisation_ends(native):
+    """Hosts such as libcosim set them in initialisation mode, as the standard allows."""
+    before, during = native("vehicle"), native("vehicle")
+    values = {"static_wheel_load": 90e3, "initial_position": 5.0, "flat.shape": "parabola"}
+    before.set(**values)
+    before.enter()
+    during.enter()
+    assert during.group("wheel[#].position")[0] != 5.0
+    during.set(**values)
+    for vehicle in (before, during):
+        vehicle.exit()
+        vehicle.step(0.0, 1e-4)
+    assert during.group("wheel[#].contact_force")[0] == pytest.approx(90e3, rel=0.1)
+    for name in ("wheel[#].position", "wheel[#].contact_force", "wheel[#].displacement"):
+        assert during.group(name).tobytes() == before.group(name).tobytes()
+    wrong = native("vehicle")
+    wrong.enter()
+    wrong.set(speed=-1.0)
+    with pytest.raises(NativeError, match="speed"):
+        wrong.exit()
 
 
 def test_wrong_variables_are_refused(native):

@@ -74,12 +74,15 @@ rc_status rc_enter_initialisation(rc_model *model, double start_time)
     return RC_OK;
 }
 
-/* Works the initial state out if the inputs have changed since the last time. */
+/* Works the initial state out if parameters or inputs have changed since the last time. */
 static rc_status ensure_started(rc_model *model)
 {
     if (model->head->started)
         return RC_OK;
     memset(model->known, 0, model->kind->kind_count);
+    const rc_status prepared = rc_prepare(model);
+    if (prepared != RC_OK)
+        return prepared;
     const rc_status status = model->kind->start(model);
     if (status == RC_OK)
         model->head->started = 1;

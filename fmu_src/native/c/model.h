@@ -1,8 +1,8 @@
 /* What a host needs of a model: variables, initialisation, steps, states, derivatives.
  *
  * A model is fed with one resource (binary.h) and driven in this order: rc_create, rc_set of
- * parameters and inputs, rc_enter_initialisation, rc_set of inputs, rc_exit_initialisation, then
- * steps. Memory is claimed by rc_create and rc_enter_initialisation alone (and by rc_restore of a
+ * parameters and inputs, rc_enter_initialisation, rc_set of both, rc_exit_initialisation, then
+ * steps. Memory is claimed by rc_create and during the initialisation alone (and by rc_restore of a
  * state with other parameters). Instances share nothing but the resource, which nobody changes.
  *
  * Every function that can fail leaves the model as it was and a sentence in rc_message; only
@@ -79,8 +79,8 @@ RC_API const rc_group *rc_group_of(const rc_model *model, uint32_t variable);
 RC_API size_t rc_name(const rc_model *model, uint32_t variable, char *name, size_t size);
 
 /* Values of variables of one type; Integer and Boolean travel as whole numbers in double.
- * Parameters are fixed once the initialisation has begun, constants always. During the
- * initialisation, outputs are those of the equilibrium under the inputs set so far. */
+ * Parameters are fixed once the initialisation has ended, constants always. During it, outputs are
+ * those of the equilibrium under the parameters and inputs set so far. */
 RC_API rc_status rc_get(rc_model *model, rc_type type, const uint32_t *variables, size_t count,
                         double *values);
 RC_API rc_status rc_set(rc_model *model, rc_type type, const uint32_t *variables, size_t count,

@@ -126,13 +126,13 @@ static rc_status may_set(rc_model *model, uint32_t variable)
     if (causality == RC_CONSTANT)
         return rc_fail(model, RC_ERROR, "%s is fixed in this FMU, whose modes were computed with "
                                         "it; build another FMU", name);
-    if (model->head->phase != RC_INSTANTIATED)
-        return rc_fail(model, RC_ERROR, "%s is fixed once initialisation has begun; set it before",
-                       name);
+    if (model->head->phase == RC_STEPPING)
+        return rc_fail(model, RC_ERROR, "%s is fixed once the initialisation has ended; set it "
+                                        "before", name);
     return RC_OK;
 }
 
-/* What was worked out from the inputs is so no more while they still set the initial state. */
+/* What was worked out from the values is so no more while they still set the initial state. */
 static void note_change(rc_model *model)
 {
     if (model->head->phase == RC_INITIALISING) {
@@ -190,5 +190,6 @@ rc_status rc_set_text(rc_model *model, uint32_t variable, const char *text)
     char *place = model->texts + RC_TEXT_SIZE * model->slots[model->group_of[variable]];
     memset(place, 0, RC_TEXT_SIZE); /* equal parameters are equal bytes */
     memcpy(place, text, length);
+    note_change(model);
     return RC_OK;
 }
