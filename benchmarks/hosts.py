@@ -4,7 +4,7 @@
 
 Contact is on the track's side, steps are 100 us, nothing is iterated. The error is that of the
 peak force against this project's own master, which iterates and controls its error. FMUs are the
-native ones, built into a temporary folder; two rows run those in Python. Other tools run in
+native ones, built into a temporary folder; the last rows run those in Python. Other tools run in
 `.venv-hosts` (`make hosts`); what is missing is listed with the remedy.
 """
 
@@ -17,24 +17,21 @@ from argparse import ArgumentParser
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from host_tools.answer import Answer, HostError
+from host_tools.answer import HostError
 from host_tools.rows import Row, make_rows, own_run
 from rich.console import Console
 from rich.table import Table
 
 
-def measure(row: Row, exact: float) -> dict[str, object]:
-    """Run a row and return what is to be shown."""
-    shown: dict[str, object] = {"host": row.name, "fmus": row.fmus, "remedy": ""}
+def measure(row: Row, exact: float | None) -> dict[str, object]:
+    """Run a row and return what is to be shown; `exact` is the peak force to compare with."""
+    shown: dict[str, object] = {"host": row.host, "fmus": row.fmus, "remedy": ""}
     try:
-        answer: Answer = row.run()
+        answer = row.run()
     except HostError as error:
         return shown | {"remedy": str(error)}
-    return shown | {
-        "peak": answer.largest[0],
-        "error": answer.largest[0] / exact - 1.0,
-        "seconds": answer.seconds,
-    }
+    (peak,) = answer.largest
+    return shown | {"peak": peak, "error": peak / (exact or peak) - 1.0, "seconds": answer.seconds}
 
 
 def show(results: list[dict[str, object]]) -> None:
@@ -60,11 +57,9 @@ def main() -> None:
     parser.add_argument("--json", action="store_true", help="print JSON instead of a table")
     options = parser.parse_args()
     with TemporaryDirectory() as folder:
-        own = own_run(Path(folder))
-        results = [measure(own, 1.0)]
-        exact = float(str(results[0]["peak"]))
-        results[0]["error"] = 0.0
-        results += [measure(row, exact) for row in make_rows(Path(folder))]
+        own = measure(own_run(Path(folder)), None)
+        exact = float(str(own["peak"]))
+        results = [own, *(measure(row, exact) for row in make_rows(Path(folder)))]
     if options.json:
         print(json.dumps(results))
     else:

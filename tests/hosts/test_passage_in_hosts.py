@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-pytestmark = pytest.mark.host
+pytestmark = [pytest.mark.host, pytest.mark.xdist_group("hosts")]  # they share what is built
 
 JACOBI = 234_311.696
 """What all hosts must find that pass all outputs on, then step both FMUs [N]."""
