@@ -1,10 +1,11 @@
 # Every target sets up .venv first; after that nothing here needs the network.
 #   make run      the wheel-flat passage: out/passage.nc and out/passage.png
-#   make test     format, lint, types and the quick tests
+#   make test     format, lint, types and the quick tests, those in other tools included
 #   make check    the same with the slow tests
 #   make fuzz     two million random calls of each version of FMI under sanitizers; minutes
 #   make bench    the benchmarks, one table each
-#   make hosts    other co-simulation tools for the benchmarks, into .venv-hosts (`make bench` does it, too)
+#   make hosts    other co-simulation tools, into .venv-hosts (`make test` and `make bench` do it, too)
+#   make test-hosts  the passage in all of them; fails if one is missing
 #   make fmus     the FMUs, into dist/
 # PYTHON=/path/to/python3 chooses the interpreter that makes .venv.
 
@@ -14,12 +15,12 @@ BIN := $(VENV)/bin
 INSTALLED := $(VENV)/installed-pyproject.toml
 
 HOSTS := .venv-hosts
-HOSTS_NEEDED := benchmarks/overhead/host_scripts/requirements.txt
+HOSTS_NEEDED := benchmarks/host_tools/scripts/requirements.txt
 
 # The matrices are small: BLAS threads cost more than they bring, most of all beside `pytest -n`.
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: run test check fuzz bench hosts fmus lint
+.PHONY: run test check fuzz bench hosts try-hosts test-hosts fmus lint
 .DELETE_ON_ERROR:
 
 run: $(INSTALLED)
@@ -27,10 +28,10 @@ run: $(INSTALLED)
 	$(BIN)/railcosim run --output out/passage.nc --plot out/passage.png
 	@echo "written: out/passage.nc and out/passage.png"
 
-test: lint
+test: lint try-hosts
 	$(BIN)/python -m pytest -n 2 --dist loadgroup
 
-check: lint
+check: lint try-hosts
 	$(BIN)/python -m pytest -n 2 --dist loadgroup -m "slow or not slow"
 
 # FUZZ_SEEDS="7 8 9" begins elsewhere; a failure names the seed and the call.
@@ -44,9 +45,14 @@ lint: $(INSTALLED)
 	$(BIN)/ruff check
 	$(BIN)/mypy --strict
 
-bench: $(INSTALLED)
-	@$(MAKE) --no-print-directory hosts || echo "going on without other hosts" >&2
+bench: $(INSTALLED) try-hosts
 	@set -e; for script in benchmarks/*.py; do echo "$$script"; $(BIN)/python "$$script"; done
+
+try-hosts:
+	@$(MAKE) --no-print-directory hosts || echo "going on without other tools" >&2
+
+test-hosts: $(INSTALLED) hosts
+	RAILCOSIM_HOSTS=required $(BIN)/python -m pytest -m host tests/hosts
 
 hosts: $(HOSTS)/installed-requirements.txt
 
@@ -68,7 +74,7 @@ $(INSTALLED): pyproject.toml
 	@cp pyproject.toml $@
 
 $(HOSTS)/installed-requirements.txt: $(HOSTS_NEEDED)
-	@echo "setting up $(HOSTS) for the benchmarks, once; this takes a minute"
+	@echo "setting up $(HOSTS), once; this takes a minute"
 	@$(PYTHON) -m venv $(HOSTS)
 	@$(HOSTS)/bin/python -m pip install --quiet --disable-pip-version-check -r $(HOSTS_NEEDED)
 	@$(HOSTS)/bin/python -m pip install --quiet --disable-pip-version-check --no-deps cofmupy==1.0.0

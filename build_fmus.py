@@ -20,7 +20,12 @@ import platformdirs
 from fmu_src.archive import holds, write_archive
 from fmu_src.native.archives import ensure_archive
 from fmu_src.native.compiler import TARGETS, CompilationError
-from fmu_src.native.models import TRACK_CONSTANTS, native_track, native_vehicle
+from fmu_src.native.models import (
+    TRACK_CONSTANTS,
+    native_masses,
+    native_track,
+    native_vehicle,
+)
 from fmu_src.native.packaging import FmiVersion
 from fmu_src.python.packaging import RECIPES, fmu_contents
 from fmu_src.python.variables import Value
@@ -141,6 +146,7 @@ def ensure_native_fmus(
     directory: Path,
     structure: Structure | None = None,
     *,
+    contact: str = "vehicle",
     fixed: Mapping[str, Value] | None = None,
     fmi_version: FmiVersion = 2,
     platforms: Collection[str] | None = None,
@@ -154,6 +160,8 @@ def ensure_native_fmus(
         Where they are kept.
     structure : Structure, optional
         What is fixed at build time; the paper's track and bogie without.
+    contact : str
+        A key of `PAIRS`: which side has the contacts.
     fixed : mapping of str to float, int or bool, optional
         Values of `TRACK_CONSTANTS` other than the paper's. FMUs of such tracks have a name of
         their own; only the last ones built are kept.
@@ -174,6 +182,8 @@ def ensure_native_fmus(
         If an archive cannot be written.
     """
     structure = structure or Structure()
+    on_track = contact == "track"
+    make_vehicle = native_masses if on_track else native_vehicle
     track, vehicle = (
         ensure_archive(
             directory,
@@ -184,8 +194,8 @@ def ensure_native_fmus(
             progress=progress,
         )
         for model in (
-            native_track(**structure.of("track"), fixed=fixed or {}),
-            native_vehicle(**structure.of("vehicle")),
+            native_track(**structure.of("track"), fixed=fixed or {}, contact=on_track),
+            make_vehicle(wheels=structure.wheels),
         )
     )
     return FmuPaths(track=track, vehicle=vehicle, fixed=TRACK_CONSTANTS)
@@ -244,8 +254,14 @@ def _build(
         versions: tuple[FmiVersion, ...] = (2, 3)
         return [
             ensure_native_fmus(
-                directory, structure, fmi_version=version, platforms=platforms, progress=say
+                directory,
+                structure,
+                contact=contact,
+                fmi_version=version,
+                platforms=platforms,
+                progress=say,
             )
+            for contact in PAIRS
             for version in versions
         ]
     return [ensure_fmus(directory, structure, contact=contact, progress=say) for contact in PAIRS]

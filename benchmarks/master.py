@@ -19,9 +19,11 @@ from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
 
+from host_tools.answer import HostError
+from host_tools.python_host import NAMES, PythonHost
 from overhead.coupled import Coupled, controlled, settings
 from overhead.direct import raw_calls, raw_iterated_calls, wrapper_classes
-from overhead.hosts import NAMES, Host, HostError
+from overhead.hosts import Hosted
 from overhead.system import Sample, build_fmus, largest_miss
 from rich.console import Console
 from rich.table import Table
@@ -103,7 +105,7 @@ def make_rows(*, short: bool) -> list[Row]:
     for name in ("gauss_seidel", "newton"):
         way = Coupled(settings=settings(name), isolated=True)
         rows.append(Row(name=f"{name}, isolated", run=way, algorithm=name, slow=True))
-    rows += [Row(name=name, run=Host(name), algorithm="jacobi") for name in NAMES]
+    rows += [Row(name=name, run=Hosted(PythonHost(name)), algorithm="jacobi") for name in NAMES]
     return rows
 
 
@@ -124,8 +126,8 @@ def measure(rows: list[Row], fmu: Path, *, steps: int, repetitions: int) -> list
         done = bool(row.samples) and not row.remedy
         results.append(
             {
-                "name": f"{row.name} {row.run.version}"
-                if done and isinstance(row.run, Host)
+                "name": f"{row.name} {row.run.host.version}"
+                if done and isinstance(row.run, Hosted)
                 else row.name,
                 "microseconds": median(s.microseconds for s in row.samples) if done else None,
                 "ratio": median(ratios) if done else None,

@@ -1,5 +1,6 @@
-/* Times of the native track: one update, an update repeated with other forces, one with a step size
- * never seen before, saving and restoring. Prints nanoseconds, one figure a line. */
+/* Times of a native track, with the contacts on its side or without: one update, an update repeated
+ * with other forces or displacements, one with a step size never seen before, saving and restoring.
+ * Prints nanoseconds, one figure a line. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -11,6 +12,7 @@
 #define STEP 20e-6 /* s */
 #define SPEED 11.111111111111111
 #define STATIC_LOAD 117720.0
+#define HOP 1e-6 /* m */
 #define MOST_WHEELS 64
 
 /* Processor time [ns]: what others do on the machine does not count. */
@@ -54,8 +56,9 @@ static size_t find(const rc_model *model, const char *name)
 
 typedef struct {
     rc_model *model;
-    size_t position, force, displacement, wheels;
-    double positions[MOST_WHEELS], forces[MOST_WHEELS], result[MOST_WHEELS], time;
+    size_t position, pressed, result, wheels; /* pressed: by forces, or by displacements */
+    double least, unit;                       /* of what it is pressed by */
+    double positions[MOST_WHEELS], values[MOST_WHEELS], results[MOST_WHEELS], time;
     void *saved;
 } run;
 
@@ -63,7 +66,7 @@ static void move(run *of, double step, unsigned int number)
 {
     for (size_t i = 0; i < of->wheels; ++i) {
         of->positions[i] += SPEED * step;
-        of->forces[i] = STATIC_LOAD * (1.0 + 0.01 * (double)((number + i) % 7));
+        of->values[i] = of->least + of->unit * (double)((number + i) % 7);
     }
 }
 
@@ -71,10 +74,10 @@ static void step(run *of, double size)
 {
     double reached;
     rc_set_group(of->model, of->position, of->positions);
-    rc_set_group(of->model, of->force, of->forces);
+    rc_set_group(of->model, of->pressed, of->values);
     if (rc_step(of->model, of->time, size, RC_AS_PARAMETER, &reached) != RC_OK)
         fail(rc_message(of->model));
-    rc_get_group(of->model, of->displacement, of->result);
+    rc_get_group(of->model, of->result, of->results);
 }
 
 /* One round of each kind; `number` makes it differ from the others. */
@@ -90,7 +93,7 @@ static void update(run *of, unsigned int number)
 static void repeat(run *of, unsigned int number)
 {
     rc_restore(of->model, of->saved);
-    of->forces[0] = STATIC_LOAD + (double)number;
+    of->values[0] = of->least + 1e-5 * of->unit * (double)number;
     step(of, STEP);
 }
 
@@ -132,15 +135,23 @@ int main(int count, char **arguments)
     if (of.model == NULL)
         fail(message);
     of.position = find(of.model, "wheel[#].position");
-    of.force = find(of.model, "wheel[#].contact_force");
-    of.displacement = find(of.model, "wheel[#].rail_displacement");
+    of.pressed = find(of.model, "wheel[#].contact_force");
+    if (rc_group_at(of.model, of.pressed)->causality == RC_INPUT) {
+        of.result = find(of.model, "wheel[#].rail_displacement");
+        of.least = STATIC_LOAD;
+        of.unit = 0.01 * STATIC_LOAD;
+    } else {
+        of.result = of.pressed;
+        of.pressed = find(of.model, "wheel[#].displacement");
+        of.unit = HOP;
+    }
     of.wheels = rc_group_at(of.model, of.position)->count;
     const uint32_t linear = rc_variable_count(of.model) - 1;
     const double yes = 1.0;
     if (of.wheels > MOST_WHEELS || rc_set(of.model, RC_BOOLEAN, &linear, 1, &yes) != RC_OK)
         fail("this is no track for this program");
     rc_get_group(of.model, of.position, of.positions);
-    rc_get_group(of.model, of.force, of.forces);
+    rc_get_group(of.model, of.pressed, of.values);
     if (rc_enter_initialisation(of.model, 0.0) != RC_OK ||
         rc_exit_initialisation(of.model) != RC_OK)
         fail(rc_message(of.model));

@@ -1,10 +1,11 @@
-"""What the native track costs in processor time, on a track of 50 and on one of 200 bays.
+"""What the native tracks cost in processor time, on a track of 50 and on one of 200 bays.
 
     python benchmarks/native_steps.py
 
 The cost of a step grows with the retained modes and not faster. An update is one step of a moving
 bogie with a step size that was used before; a repeated one starts from the same state with other
-contact forces. Least of 100 batches of 200 each.
+contact forces, or other displacements of the wheels where the contacts are on the track's side.
+Least of 100 batches of 200 each.
 """
 
 from __future__ import annotations
@@ -27,14 +28,27 @@ from track_fmu.parameters import TrackParameters
 SOURCE = Path(__file__).with_suffix(".c")
 BAYS = (50, 200)
 MODES_PER_BAY = 3
+MODELS = {"track": "Track", "track_contact": "TrackContact"}
 
 
-def measure(folder: Path, program: Path, bays: int) -> dict[str, str]:
-    """Nanoseconds by what was done."""
-    resource = folder / f"track{bays}.bin"
-    parameters = TrackParameters(bays=bays)
+def measure(folder: Path, model: str) -> dict[int, dict[str, str]]:
+    """Nanoseconds by number of bays and what was done."""
+    program = folder / model
+    program.write_bytes(compile_program(model, this_target(), main=SOURCE))
+    program.chmod(0o755)
+    return {bays: _run(folder, program, model, bays) for bays in BAYS}
+
+
+def _run(folder: Path, program: Path, model: str, bays: int) -> dict[str, str]:
+    resource = folder / "track.bin"
     resource.write_bytes(
-        track_resource(parameters, wheels=2, gauges=3, mode_pairs=MODES_PER_BAY * bays)
+        track_resource(
+            TrackParameters(bays=bays),
+            wheels=2,
+            gauges=3,
+            mode_pairs=MODES_PER_BAY * bays,
+            contact=model == "track_contact",
+        )
     )
     answer = subprocess.run([program, resource], check=True, capture_output=True, text=True)
     return dict(line.split() for line in answer.stdout.splitlines())
@@ -42,16 +56,13 @@ def measure(folder: Path, program: Path, bays: int) -> dict[str, str]:
 
 def main() -> None:
     """Print the table."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        program = folder / "native_steps"
-        program.write_bytes(compile_program("track", this_target(), main=SOURCE))
-        program.chmod(0o755)
-        times = {bays: measure(folder, program, bays) for bays in BAYS}
     table = Table("", *(f"{bays} bays, {MODES_PER_BAY * bays} mode pairs" for bays in BAYS))
-    for what in times[BAYS[0]]:
-        row = (f"{float(times[bays][what]) / 1000.0:.2f} us" for bays in BAYS)
-        table.add_row(what.replace("_", " "), *row)
+    with tempfile.TemporaryDirectory() as name:
+        for model, label in MODELS.items():
+            times = measure(Path(name), model)
+            for what in times[BAYS[0]]:
+                row = (f"{float(times[bays][what]) / 1000.0:.2f} us" for bays in BAYS)
+                table.add_row(f"{label}: {what.replace('_', ' ')}", *row)
     Console().print(table)
 
 

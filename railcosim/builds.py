@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from build_fmus import FmuPaths, Structure, ensure_fmus, ensure_native_fmus, folder_of
+from build_fmus import PAIRS, FmuPaths, Structure, ensure_fmus, ensure_native_fmus, folder_of
 from fmu_src.native.compiler import CompilationError
 
 from .dataset import count
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 def usual_build(contact: ContactSide) -> str:
     """Return the build that runs if nothing is said: ``native`` where it has been built."""
-    paths = [folder_of("native") / name for name in ("Track.fmu", "Vehicle.fmu")]
-    return "native" if contact == "vehicle" and all(p.is_file() for p in paths) else "python"
+    paths = [folder_of("native") / Structure().file_name(kind) for kind in PAIRS[contact]]
+    return "native" if all(path.is_file() for path in paths) else "python"
 
 
 def build_for(
@@ -75,14 +75,10 @@ def build_for(
             return ensure_fmus(directory, structure, contact=contact, progress=notify)
         if fmus != "native":
             raise InputError(f"fmus is {fmus!r} but must be python or native")
-        if contact != "vehicle":
-            raise InputError(
-                "there are no native FMUs with contact on the track: run the python ones, or "
-                "leave the contact to the vehicle"
-            )
         return ensure_native_fmus(
             directory,
             structure,
+            contact=contact,
             fixed=track_constants(scenario),
             fmi_version=fmi_version,
             platforms=platforms,

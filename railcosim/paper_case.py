@@ -44,7 +44,7 @@ def build_python(folder: Path, *, notify: Callable[[str], None]) -> list[Path]:
 def build_native(
     folder: Path, platforms: Collection[str], *, notify: Callable[[str], None]
 ) -> list[Path]:
-    """Build the native FMUs of FMI 2.0 with their system, and those of FMI 3.0.
+    """Build both pairs of native FMUs, those of FMI 2.0 with their systems, and those of FMI 3.0.
 
     Raises
     ------
@@ -57,18 +57,20 @@ def build_native(
     if unknown:
         raise InputError(f"--platform is {unknown[0]!r} but must be one of {', '.join(TARGETS)}")
     files = []
-    for version in (2, 3):
-        paths = build_for(
-            Scenario(),
-            "native",
-            directory=folder,
-            fmi_version=version,
-            platforms=platforms,
-            notify=notify,
-        )
-        files += [paths.track, paths.vehicle]
-        if version == 2:
-            package = folder / PACKAGE_NAMES["vehicle"]
-            ensure_package(Scenario(), paths, package, notify=notify)
-            files.append(package)
+    for contact, name in PACKAGE_NAMES.items():
+        for version in (2, 3):
+            paths = build_for(
+                Scenario(),
+                "native",
+                contact=contact,
+                directory=folder,
+                fmi_version=version,
+                platforms=platforms,
+                notify=notify,
+            )
+            files += [paths.track, paths.vehicle]
+            if version == 2:
+                package = folder / name
+                ensure_package(Scenario(), paths, package, contact=contact, notify=notify)
+                files.append(package)
     return files

@@ -185,8 +185,11 @@ class ContactTrack:
         given = np.concatenate((positions, displacements))
         parts = max(1, math.ceil(step_size / LONGEST_PART - 1e-9))
         force = self.contact_force
-        if own.passed[0] > 0.0:
-            remember(own.history, own.ages, given, float(own.passed[0]))
+        passed = float(own.passed[0])
+        if passed > 0.0:
+            # where nobody tells what the inputs have become, they are what was continued
+            now = continued(own.history, own.ages, passed) if linear else given
+            remember(own.history, own.ages, now, passed)
         elif not linear and not np.array_equal(given, own.history[0]):
             self._begin(given)
         try:
@@ -204,7 +207,7 @@ class ContactTrack:
             self.state = before
             raise
         if linear:
-            own.history[0] = given
+            remember(own.history, own.ages, given, step_size)
         own.passed[0] = 0.0 if linear else step_size
         own.ahead[:] = np.maximum(1.5 * self.contact_force - 0.5 * force, 0.0)
 

@@ -132,12 +132,10 @@ class Masses:
                 f"the step size is {step_size:g} s; it must be a finite number above zero"
             )
         _check_forces(forces)
-        passed = step_size if linear else float(self._state[2])
-        if passed > 0.0:
-            slope = (forces - self._wheels[2]) / passed
-            self._wheels[:2] = self._moved(passed, slope)
-            self._wheels[3] = slope
-        self._wheels[2] = forces
+        passed = float(self._state[2])
+        if linear and passed > 0.0:  # where nobody tells what the forces have become
+            self._follow(passed, self._wheels[2] + passed * self._wheels[3])
+        self._follow(step_size if linear else passed, forces)
         self._state[1] = time + step_size
         self._state[2] = 0.0 if linear else step_size
 
@@ -170,6 +168,14 @@ class Masses:
     def velocity(self) -> FloatArray:
         """Velocity of each wheel [m/s], positive downwards, shape (wheels,)."""
         return self._moved(float(self._state[2]), self._wheels[3])[1]
+
+    def _follow(self, duration: float, forces: FloatArray) -> None:
+        """Move to where the forces are known to have become the given ones."""
+        if duration > 0.0:
+            slope = (forces - self._wheels[2]) / duration
+            self._wheels[:2] = self._moved(duration, slope)
+            self._wheels[3] = slope
+        self._wheels[2] = forces
 
     def _moved(self, duration: float, slope: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Displacement and velocity after a time in which the forces change at a given rate."""

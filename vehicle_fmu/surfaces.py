@@ -4,7 +4,7 @@ import numpy as np
 
 from .irregularity import RailIrregularity
 from .parameters import FlatParameters
-from .validation import FloatArray
+from .validation import FloatArray, require_positive
 from .wheel_profile import Profile, WheelProfileTable, check_flat, flat_along_rail
 
 
@@ -48,8 +48,8 @@ class Surfaces:
     Raises
     ------
     ValueError
-        If the flat is on none of the wheels, does not fit, or its shape and table do not go
-        together.
+        If the radius is not above zero, the flat is on none of the wheels, does not fit, or its
+        shape and table do not go together.
     """
 
     def __init__(
@@ -61,6 +61,7 @@ class Surfaces:
         wheels: int,
         radius: float,
     ) -> None:
+        require_positive("wheel_radius", radius, "m", "give half the wheel diameter")
         check_flat(flat, flat_table, radius=radius, wheels=wheels)
         self._profiles = surface_profiles(
             flat, flat_table, irregularity, wheels=wheels, radius=radius

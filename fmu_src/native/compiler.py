@@ -34,7 +34,7 @@ FMI = (
     "resource_file.c",
 )
 COMMON = ("binary.c", "checksum.c", "create.c", "model.c", "state.c", "variables.c")
-TRACK = (
+ON_TRACK = (
     "basis.c",
     "dense.c",
     "exponential.c",
@@ -46,21 +46,38 @@ TRACK = (
     "rows.c",
     "static_start.c",
     "supports.c",
-    "track.c",
-    "track_derivative.c",
     "track_memory.c",
+    "track_setup.c",
 )
+TRACK = (*ON_TRACK, "track.c", "track_derivative.c")
+MOTION = ("curve.c", "motion.c", "table_file.c")
+SURFACES = ("curve.c", "flat.c", "surfaces.c", "table_file.c")
 VEHICLE = (
-    "curve.c",
+    *dict.fromkeys((*MOTION, *SURFACES)),
     "excitation.c",
-    "flat.c",
-    "motion.c",
-    "table_file.c",
     "vehicle.c",
     "vehicle_setup.c",
     "wheel.c",
 )
-MODELS = {"track": (*FMI, *COMMON, *TRACK), "vehicle": (*FMI, *COMMON, *VEHICLE)}
+TRACK_CONTACT = (
+    *ON_TRACK,
+    *SURFACES,
+    "contact_memory.c",
+    "contact_solution.c",
+    "contact_step.c",
+    "continuation.c",
+    "track_contact.c",
+)
+MASSES = (*MOTION, "masses.c")
+MODELS = {
+    name: (*FMI, *COMMON, *own)
+    for name, own in (
+        ("track", TRACK),
+        ("vehicle", VEHICLE),
+        ("track_contact", TRACK_CONTACT),
+        ("masses", MASSES),
+    )
+}
 """Sources of every model."""
 
 LANGUAGE = ("-std=c11", "-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Wshadow", "-Werror")

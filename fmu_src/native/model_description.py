@@ -19,6 +19,7 @@ ATTRIBUTES = {
 CATEGORIES = {
     "logStatusDiscard": "Steps that cannot be made, and values that are not known",
     "logStatusError": "Calls and values that are refused",
+    "logStatusWarning": "What is doubtful about steps that are made",
 }
 FMI2_TYPES = {bool: "Boolean", int: "Integer", float: "Real", str: "String"}
 FMI3_TYPES = {bool: "Boolean", int: "Int32", float: "Float64", str: "String"}

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fmu_src.python.basis_cache import cached_basis
+from fmu_src.python.masses_variables import declare_masses
 from fmu_src.python.model_slave import LINEAR_INPUTS
+from fmu_src.python.track_contact_variables import declare_track_contact
 from fmu_src.python.track_variables import TABLE_1, declare_track
+from fmu_src.python.variables import Variable
 from fmu_src.python.vehicle_variables import declare_vehicle
 from track_fmu.assembly import assemble
 from track_fmu.beam_element import FloatArray, shear_parameter
@@ -29,6 +33,7 @@ def track_resource(
     gauges: int,
     mode_pairs: int,
     residual_flexibility: bool = True,
+    contact: bool = False,
 ) -> bytes:
     """Resource of a track, whose modes are computed or taken from the cache.
 
@@ -42,16 +47,19 @@ def track_resource(
         Retained pairs of modes; fixed in the FMU.
     residual_flexibility : bool
         Whether the quasi-static part of the other modes is accounted for; fixed in the FMU.
+    contact : bool
+        Whether the track finds its contact forces itself.
     """
     matrices = assemble(parameters)
     basis = cached_basis(parameters, matrices, mode_pairs=mode_pairs)
     reduced = reduce_track(parameters, matrices, basis, residual_flexibility=residual_flexibility)
-    variables = [*declare_track(parameters, wheels=wheels, gauges=gauges), LINEAR_INPUTS]
+    declare = declare_track_contact if contact else _declare_track
+    variables = declare(parameters, wheels=wheels, gauges=gauges)
     fixed = {name: asdict(parameters)[name] for name, _, _ in TABLE_1}
     fixed |= {"mode_pairs": mode_pairs, "residual_flexibility": residual_flexibility}
     half = _filled(len(reduced.eigenvalues))
     sections: dict[str, Section] = {
-        "model": b"Track",
+        "model": b"TrackContact" if contact else b"Track",
         "structure": np.array(
             [
                 *(wheels, gauges, parameters.bays, parameters.elements_per_bay),
@@ -66,9 +74,22 @@ def track_resource(
 
 def vehicle_resource(*, wheels: int) -> bytes:
     """Resource of a vehicle; all of its parameters stay parameters of the FMU."""
-    variables = [*declare_vehicle(wheels), LINEAR_INPUTS]
+    return _wheels_resource(b"Vehicle", wheels, [*declare_vehicle(wheels), LINEAR_INPUTS])
+
+
+def masses_resource(*, wheels: int) -> bytes:
+    """Resource of wheel masses; all of their parameters stay parameters of the FMU."""
+    return _wheels_resource(b"Masses", wheels, declare_masses(wheels))
+
+
+def _declare_track(structure: TrackParameters, *, wheels: int, gauges: int) -> list[Variable]:
+    return [*declare_track(structure, wheels=wheels, gauges=gauges), LINEAR_INPUTS]
+
+
+def _wheels_resource(model: bytes, wheels: int, variables: Sequence[Variable]) -> bytes:
+    """Resource of a model of which nothing is fixed but the number of wheels."""
     sections: dict[str, Section] = {
-        "model": b"Vehicle",
+        "model": model,
         "structure": np.array([wheels], dtype=np.int64),
     }
     return pack(sections | start_values(variables, {}))

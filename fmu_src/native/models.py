@@ -6,16 +6,22 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 
+from fmu_src.python.masses_variables import declare_masses
 from fmu_src.python.model_slave import LINEAR_INPUTS
+from fmu_src.python.track_contact_variables import declare_track_contact
 from fmu_src.python.track_variables import TABLE_1, declare_track
 from fmu_src.python.variables import Value, Variable
 from fmu_src.python.vehicle_variables import declare_vehicle
 from track_fmu.parameters import TrackParameters
 
-from .model_resources import track_resource, vehicle_resource
+from .model_resources import masses_resource, track_resource, vehicle_resource
 
 TRACK_CONSTANTS = (*(name for name, _, _ in TABLE_1), "mode_pairs", "residual_flexibility")
 """Parameters of the Python track that are constants of the native one: its modes depend on them."""
+
+FORCE_PORT = ("position", "contact_force", "rail_displacement")
+MOTION_PORT = ("position", "displacement", "contact_force")
+"""What is connected for every wheel, with the contacts on the vehicle's and on the track's side."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,7 +82,13 @@ class NativeModel:
 
 
 def native_track(
-    *, bays: int, elements_per_bay: int, wheels: int, gauges: int, fixed: Mapping[str, Value]
+    *,
+    bays: int,
+    elements_per_bay: int,
+    wheels: int,
+    gauges: int,
+    fixed: Mapping[str, Value],
+    contact: bool = False,
 ) -> NativeModel:
     """Track of a size.
 
@@ -86,6 +98,8 @@ def native_track(
         Its size.
     fixed : mapping of str to float, int or bool
         Values of `TRACK_CONSTANTS`; those of the paper where one is missing.
+    contact : bool
+        Whether it finds its contact forces itself.
 
     Raises
     ------
@@ -100,19 +114,20 @@ def native_track(
     of_track = {name: fixed[name] for name, _, _ in TABLE_1 if name in fixed}
     size = TrackParameters(bays=bays, elements_per_bay=elements_per_bay)
     parameters = replace(size, **of_track)  # type: ignore[arg-type]  # checked by the class
-    declared = declare_track(parameters, wheels=wheels, gauges=gauges)
+    declare = declare_track_contact if contact else _declare_track
     variables = tuple(
         replace(variable, start=fixed.get(variable.name, variable.start))
         if variable.name in TRACK_CONSTANTS
         else variable
-        for variable in (*declared, LINEAR_INPUTS)
+        for variable in declare(parameters, wheels=wheels, gauges=gauges)
     )
     start = {variable.name: variable.start for variable in variables}
-    usual = declare_track(size, wheels=wheels, gauges=gauges)
     return NativeModel(
-        kind="track",
-        name="Track",
-        description="Railway track with state-dependent ballast under moving wheel-rail forces",
+        kind="track_contact" if contact else "track",
+        name="TrackContact" if contact else "Track",
+        description="Railway track with state-dependent ballast and its contacts with moving wheels"
+        if contact
+        else "Railway track with state-dependent ballast under moving wheel-rail forces",
         variables=variables,
         constants=TRACK_CONSTANTS,
         structure={
@@ -121,9 +136,9 @@ def native_track(
             "wheels": wheels,
             "gauges": gauges,
         },
-        ports=_ports(wheels),
-        usual=list(variables[:-1]) == usual,
-        switches=False,
+        ports=_ports(wheels, MOTION_PORT if contact else FORCE_PORT),
+        usual=list(variables) == declare(size, wheels=wheels, gauges=gauges),
+        switches=contact,
         make_resource=partial(
             track_resource,
             parameters,
@@ -131,6 +146,7 @@ def native_track(
             gauges=gauges,
             mode_pairs=int(start["mode_pairs"]),
             residual_flexibility=bool(start["residual_flexibility"]),
+            contact=contact,
         ),
     )
 
@@ -143,10 +159,25 @@ def native_vehicle(*, wheels: int) -> NativeModel:
         description="Moving wheel masses in Hertzian contact with the rail, with a wheel flat",
         variables=(*declare_vehicle(wheels), LINEAR_INPUTS),
         structure={"wheels": wheels},
-        ports=_ports(wheels),
+        ports=_ports(wheels, FORCE_PORT),
         usual=True,
         switches=True,
         make_resource=partial(vehicle_resource, wheels=wheels),
+    )
+
+
+def native_masses(*, wheels: int) -> NativeModel:
+    """So many wheel masses for a track that finds their contact forces."""
+    return NativeModel(
+        kind="masses",
+        name="Masses",
+        description="Moving wheel masses under given contact forces, in any number of bogies",
+        variables=tuple(declare_masses(wheels)),
+        structure={"wheels": wheels},
+        ports=_ports(wheels, MOTION_PORT),
+        usual=True,
+        switches=False,
+        make_resource=partial(masses_resource, wheels=wheels),
     )
 
 
@@ -156,12 +187,16 @@ def described(model: NativeModel) -> bytes:
     return "\n".join((model.kind, size, *(repr(asdict(v)) for v in model.variables))).encode()
 
 
-def _ports(wheels: int) -> tuple[Port, ...]:
+def _declare_track(structure: TrackParameters, *, wheels: int, gauges: int) -> list[Variable]:
+    return [*declare_track(structure, wheels=wheels, gauges=gauges), LINEAR_INPUTS]
+
+
+def _ports(wheels: int, members: tuple[str, ...]) -> tuple[Port, ...]:
     return tuple(
         Port(
             name=f"wheel[{k}]",
             description=f"Contact of wheel {k} with the rail: its place, force and displacement",
-            members=("position", "contact_force", "rail_displacement"),
+            members=members,
         )
         for k in range(1, wheels + 1)
     )

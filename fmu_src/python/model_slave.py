@@ -132,7 +132,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         self._time = start_time
 
     def enter_initialization_mode(self) -> None:
-        """Fix the parameters and make the model."""
+        """Make the model, so that parameters that no model can have are refused here."""
         if self._phase != Phase.INSTANTIATED:
             raise self._logged(ValueError("the initialisation has begun already; reset first"))
         if not math.isfinite(self._time):
@@ -250,13 +250,18 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         return values
 
     def _set_parameter(self, name: str, value: Value) -> None:
-        if self._phase != Phase.INSTANTIATED:
-            message = f"{name} is fixed once initialisation has begun; set it before"
+        if self._phase == Phase.STEPPING:
+            message = f"{name} is fixed once the initialisation has ended; set it before"
             raise self._logged(ValueError(message))
         self._parameters[name] = value
+        self._note_change()
 
     def _set_input(self, place: int, value: float) -> None:
         self._inputs[place] = value
+        self._note_change()
+
+    def _note_change(self) -> None:
+        """Forget what was worked out from values that still set the initial state."""
         if self._phase == Phase.INITIALISING:
             self._started = False
             self._outputs.clear()
@@ -271,6 +276,8 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
 
     def _ensure_started(self) -> None:
         if not self._started:
+            if self._made_from != tuple(self._parameters.values()):
+                self._make_model()
             try:
                 self.start_model(self._model, self._time, self._groups)
             except (ValueError, RuntimeError) as error:

@@ -3,10 +3,11 @@ import zipfile
 import pytest
 
 from build_fmus import Structure, ensure_native_fmus
-from fmu_src.native.compiler import TARGETS, compile_library, this_target
-from fmu_src.native.model_resources import track_resource, vehicle_resource
+from fmu_src.native.compiler import MODELS, TARGETS, compile_library, this_target
+from fmu_src.native.model_resources import masses_resource, track_resource, vehicle_resource
 from track_fmu.parameters import TrackParameters
 
+from .contact_twins import ContactPair, MassesPair
 from .fmi_calls import Calls
 from .library import NativeModel, load
 from .twins import TrackPair, VehiclePair
@@ -14,10 +15,10 @@ from .twins import TrackPair, VehiclePair
 
 @pytest.fixture(scope="session")
 def libraries(tmp_path_factory):
-    """Both libraries, compiled for this machine."""
+    """All libraries, compiled for this machine."""
     folder = tmp_path_factory.mktemp("native")
     loaded = {}
-    for model in ("track", "vehicle"):
+    for model in MODELS:
         path = folder / f"{model}{TARGETS[this_target()].suffix}"
         path.write_bytes(compile_library(model, this_target(), name=model))
         loaded[model] = load(path)
@@ -32,9 +33,12 @@ def short_track():
 
 @pytest.fixture(scope="session")
 def resources(short_track):
+    size = {"wheels": 2, "gauges": 2, "mode_pairs": 36}
     return {
-        "track": track_resource(short_track, wheels=2, gauges=2, mode_pairs=36),
+        "track": track_resource(short_track, **size),
         "vehicle": vehicle_resource(wheels=2),
+        "track_contact": track_resource(short_track, **size, contact=True),
+        "masses": masses_resource(wheels=2),
     }
 
 
@@ -69,6 +73,22 @@ def vehicle_pair(native):
     return make
 
 
+@pytest.fixture
+def contact_pair(native):
+    def make(parameters, resource=None, **options):
+        return ContactPair(native, parameters, resource, **options)
+
+    return make
+
+
+@pytest.fixture
+def masses_pair(native):
+    def make(resource=None, **options):
+        return MassesPair(native, resource, **options)
+
+    return make
+
+
 @pytest.fixture(scope="session")
 def small():
     """The structure of the short track."""
@@ -83,14 +103,28 @@ def native_fmus(tmp_path_factory, small):
 
 
 @pytest.fixture(scope="session")
-def unpacked(native_fmus, tmp_path_factory):
+def contact_fmus(tmp_path_factory, small):
+    """The same with the contacts on the track's side."""
+    folder = tmp_path_factory.mktemp("contact_fmus")
+    return {
+        version: ensure_native_fmus(folder, small, contact="track", fmi_version=version)
+        for version in (2, 3)
+    }
+
+
+@pytest.fixture(scope="session")
+def unpacked(native_fmus, contact_fmus, tmp_path_factory):
     """Folders of the unpacked FMUs by version and model."""
     folders = {}
-    for version, pair in native_fmus.items():
-        for model in ("track", "vehicle"):
-            folders[version, model] = tmp_path_factory.mktemp(f"{model}{version}")
-            with zipfile.ZipFile(getattr(pair, model)) as archive:
-                archive.extractall(folders[version, model])
+    for fmus, models in (
+        (native_fmus, ("track", "vehicle")),
+        (contact_fmus, ("track_contact", "masses")),
+    ):
+        for version, pair in fmus.items():
+            for model, path in zip(models, (pair.track, pair.vehicle), strict=True):
+                folders[version, model] = tmp_path_factory.mktemp(f"{model}{version}")
+                with zipfile.ZipFile(path) as archive:
+                    archive.extractall(folders[version, model])
     return folders
 
 

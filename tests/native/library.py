@@ -20,6 +20,7 @@ class Group(ctypes.Structure):
         ("causality", c_int),
         ("first", c_uint32),
         ("count", c_uint32),
+        ("lowest", c_uint32),
     )
 
 
@@ -29,6 +30,7 @@ SIGNATURES = {
     "rc_destroy": (None, [c_void_p]),
     "rc_reset": (None, [c_void_p]),
     "rc_message": (c_char_p, [c_void_p]),
+    "rc_warning": (c_char_p, [c_void_p]),
     "rc_current_phase": (c_int, [c_void_p]),
     "rc_time": (c_double, [c_void_p]),
     "rc_variable_count": (c_uint32, [c_void_p]),
@@ -114,6 +116,10 @@ class NativeModel:
     @property
     def message(self):
         return self.library.rc_message(self.handle).decode()
+
+    @property
+    def warning(self):
+        return self.library.rc_warning(self.handle).decode()
 
     @property
     def time(self):

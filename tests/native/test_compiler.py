@@ -88,4 +88,6 @@ def test_nothing_but_the_c_library_is_needed(model):
     if not target.endswith("linux"):
         pytest.skip("looks into libraries for Linux")
     library = compile_library(model, target, name="Model")
-    assert set(re.findall(rb"lib[\w+-]+\.so[.\d]*", library)) == {b"libc.so.6", b"libm.so.6"}
+    needed = set(re.findall(rb"lib[\w+-]+\.so[.\d]*", library))
+    assert b"libc.so.6" in needed
+    assert needed <= {b"libc.so.6", b"libm.so.6"}

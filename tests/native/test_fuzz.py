@@ -11,7 +11,14 @@ CALLS = 10_000
 
 
 @pytest.mark.parametrize("version", [2, 3])
-@pytest.mark.parametrize("model", ["track", "vehicle"])
+@pytest.mark.parametrize(
+    "model",
+    [
+        "track",
+        "vehicle",
+        *(pytest.param(n, marks=pytest.mark.slow) for n in ("track_contact", "masses")),
+    ],
+)
 def test_no_call_crashes(unpacked, tmp_path, version, model):
     """All three answers come, so that the calls reach what is behind the checks."""
     command = [sys.executable, SCRIPT, unpacked[version, model], "1", str(CALLS)]

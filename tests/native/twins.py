@@ -25,7 +25,17 @@ TRACK_GROUPS = {
 }
 VEHICLE_GROUPS = ("position", "contact_force", "displacement", "velocity", "gap")
 AGREEMENT = 1e-12  # of the largest value of an array
-ORDER = {"rail_velocity": 0.1, "gap": 1e-3, "contact_force": 1e5, "velocity": 0.1}
+ORDER = {
+    "force": 1e5,
+    "ahead": 1e5,
+    "increment": 1e5,
+    "compression": 1e-3,
+    "rail_velocity": 0.1,
+    "gap": 1e-3,
+    "contact_force": 1e5,
+    "force_change": 1e5,
+    "velocity": 0.1,
+}
 """What differences are compared with where the values are smaller, as those of a track at rest."""
 
 
@@ -42,6 +52,19 @@ def reduced_track(parameters, mode_pairs, *, residual_flexibility=True):
     matrices = assemble(parameters)
     basis = cached_basis(parameters, matrices, mode_pairs=mode_pairs)
     return reduce_track(parameters, matrices, basis, residual_flexibility=residual_flexibility)
+
+
+def filled(modes):
+    return -(-modes // LANES) * LANES
+
+
+def native_track_state(flat, *, wheels, supports, modes):
+    """Numpy's state as C has it: no increments of pads; modes split and filled up."""
+    lengths = [5 * wheels, 2 * supports, 2 * supports, 2 * modes]
+    of_wheels, increment, rate, modal, load = np.split(flat, np.cumsum(lengths))
+    rows = np.zeros((4, filled(modes)))
+    rows[:, :modes] = modal[::2], modal[1::2], load[::2], load[1::2]
+    return np.concatenate([of_wheels, increment[:supports], rate[:supports], rows.ravel()])
 
 
 class TrackPair:
@@ -131,16 +154,13 @@ class TrackPair:
 
     @property
     def _half(self):
-        return -(-len(self.reduced.eigenvalues) // LANES) * LANES
+        return filled(len(self.reduced.eigenvalues))
 
     def _to_native(self, flat):
-        """Ballast increments without those of pads; modes split and filled up."""
-        supports, modes = self.parameters.supports, len(self.reduced.eigenvalues)
-        lengths = [5 * self.wheels, 2 * supports, 2 * supports, 2 * modes]
-        wheels, increment, rate, modal, load = np.split(flat, np.cumsum(lengths))
-        rows = np.zeros((4, self._half))
-        rows[:, :modes] = modal[::2], modal[1::2], load[::2], load[1::2]
-        return np.concatenate([wheels, increment[:supports], rate[:supports], rows.ravel()])
+        return native_track_state(
+            flat, wheels=self.wheels, supports=self.parameters.supports,
+            modes=len(self.reduced.eigenvalues),
+        )  # fmt: skip
 
 
 class VehiclePair:

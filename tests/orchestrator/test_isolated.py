@@ -74,10 +74,10 @@ def test_a_crash_ends_the_run_in_one_sentence(fmu, trouble):
 
 def test_a_hang_ends_the_run_within_the_time_out(fmu):
     began = time.perf_counter()
-    with pytest.raises(ParticipantError, match=r"^mass: .* no answer within 2 s and .* t = 0\.51"):
-        run(fmu, start_values={"trouble": 8}, options={"timeout": 2.0})
+    with pytest.raises(ParticipantError, match=r"^mass: .* no answer within 6 s and .* t = 0\.51"):
+        run(fmu, start_values={"trouble": 8}, options={"timeout": 6.0})
     # The time-out, once, and what starting the process and the steps before take.
-    assert time.perf_counter() - began < 15.0
+    assert time.perf_counter() - began < 20.0
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,8 @@
 
 #include "instance.h"
 
+#define MOST_WHEELS 10000
+
 const double *rc_require_section(rc_model *model, const char *name, size_t count)
 {
     size_t found;
@@ -14,6 +16,18 @@ const double *rc_require_section(rc_model *model, const char *name, size_t count
     rc_fail(model, RC_ERROR, "the resource has %zu numbers named '%s', not %zu; build the FMU "
                              "again", found, name, count);
     return NULL;
+}
+
+rc_status rc_read_wheels(rc_model *model)
+{
+    size_t count;
+    const int64_t *structure = rc_find_section(&model->resource, "structure", RC_INT64, &count);
+    if (structure == NULL || count != 1 || structure[0] < 1 || structure[0] > MOST_WHEELS)
+        return rc_fail(model, RC_ERROR, "the resource does not say how many wheels there are; "
+                                        "build the FMU again");
+    model->dimensions[RC_WHEELS] = (size_t)structure[0];
+    model->dimensions[RC_FOLLOWERS] = (size_t)structure[0] - 1;
+    return RC_OK;
 }
 
 /* Gives every group its variables and its place; texts, parameters, inputs and outputs apart. */
@@ -28,7 +42,8 @@ static void lay_out(rc_model *model)
                                       .type = from->type,
                                       .causality = from->causality,
                                       .first = model->variable_count,
-                                      .count = (uint32_t)count};
+                                      .count = (uint32_t)count,
+                                      .lowest = from->dimension == RC_FOLLOWERS ? 2 : 1};
         model->variable_count += (uint32_t)count;
         size_t *end = from->causality == RC_OUTPUT  ? &model->output_count
                       : from->type == RC_TEXT       ? &model->text_count
@@ -174,4 +189,5 @@ void rc_reset(rc_model *model)
     (void)set_start_values(model); /* succeeded once, with the same resource */
     memset(model->known, 0, model->kind->kind_count);
     model->stepped = 0;
+    model->warning[0] = '\0';
 }

@@ -9,6 +9,14 @@ static void swap(double *a, double *b)
     *b = kept;
 }
 
+double rc_largest(const double *values, size_t count)
+{
+    double found = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        found = isfinite(values[k]) ? fmax(found, fabs(values[k])) : INFINITY;
+    return found;
+}
+
 int rc_invert(double *matrix, size_t n, size_t stride, size_t *pivot)
 {
     for (size_t k = 0; k < n; ++k) {

@@ -15,6 +15,9 @@ static inline size_t rc_stride(size_t n)
  * singular or holds what is no number. `pivot` has room for n. */
 int rc_invert(double *matrix, size_t n, size_t stride, size_t *pivot);
 
+/* The largest absolute value, infinite if one of them is no finite number; 0 if there are none. */
+double rc_largest(const double *values, size_t count);
+
 /* out = out + factor transpose(matrix) vector. */
 static inline void rc_add_transformed(double *restrict out, double factor,
                                       const double *restrict matrix,

@@ -13,11 +13,7 @@ double rc_leading_position(const rc_vehicle *own, double start, double time)
 
 double rc_drop(const rc_vehicle *own, size_t wheel, double leading)
 {
-    const double x = leading - (double)wheel * own->axle_base;
-    const double rail = own->irregularity.points > 0 ? rc_curve_at(&own->irregularity, x) : 0.0;
-    if (own->flat.shape == RC_NO_FLAT || wheel != own->flat.wheel)
-        return rail;
-    return rc_flat_drop(&own->flat, x) + rail;
+    return rc_surface_drop(&own->surfaces, wheel, leading - (double)wheel * own->axle_base);
 }
 
 rc_wheel_motion rc_roll_wheel(const rc_vehicle *own, size_t wheel, const rc_way *over,

@@ -4,7 +4,8 @@
 static void tell(const rc_fmu *fmu, rc_status status, const char *category, const char *message)
 {
     const fmi3LogMessageCallback logger = (fmi3LogMessageCallback)fmu->logger;
-    logger(fmu->environment, rc_fmi3_status(status), category, message);
+    const fmi3Status said = status == RC_OK ? fmi3Warning : rc_fmi3_status(status);
+    logger(fmu->environment, said, category, message);
 }
 
 const char *fmi3GetVersion(void)

@@ -12,13 +12,19 @@
 #define MODEL_FILE "model.bin"
 #define BUILD_FILE "build.txt"
 
-static const char *const CATEGORIES[] = {"logStatusDiscard", "logStatusError"};
+static const struct {
+    unsigned bit;
+    const char *name;
+} CATEGORIES[] = {{RC_LOG_DISCARD, "logStatusDiscard"},
+                  {RC_LOG_ERROR, "logStatusError"},
+                  {RC_LOG_WARNING, "logStatusWarning"}};
+#define CATEGORY_COUNT (sizeof CATEGORIES / sizeof CATEGORIES[0])
 
 static void report(const rc_fmu *fmu, rc_status status, const char *message)
 {
-    const unsigned category = status == RC_DISCARD ? RC_LOG_DISCARD : RC_LOG_ERROR;
-    if (fmu->logger != NULL && (fmu->categories & category))
-        fmu->log(fmu, status, CATEGORIES[category - 1], message);
+    const size_t category = status == RC_DISCARD ? 0 : status == RC_ERROR ? 1 : 2;
+    if (fmu->logger != NULL && (fmu->categories & CATEGORIES[category].bit))
+        fmu->log(fmu, status, CATEGORIES[category].name, message);
 }
 
 rc_status rc_fmu_refuse(rc_fmu *fmu, rc_status status, const char *format, ...)
@@ -43,6 +49,12 @@ rc_status rc_fmu_pass(rc_fmu *fmu, rc_status status)
     if (status != RC_OK)
         report(fmu, status, rc_message(fmu->model));
     return status;
+}
+
+void rc_fmu_warn(const rc_fmu *fmu)
+{
+    if (rc_warning(fmu->model)[0] != '\0')
+        report(fmu, RC_OK, rc_warning(fmu->model));
 }
 
 static const char *phase_name(rc_fmu_phase phase)
@@ -94,13 +106,14 @@ rc_status rc_fmu_choose_log(rc_fmu *fmu, int on, size_t count, const char *const
     for (size_t i = 0; i < count; ++i) {
         if (names[i] == NULL)
             return rc_fmu_refuse(fmu, RC_ERROR, "category %zu of the log is NULL", i + 1);
-        if (strcmp(names[i], CATEGORIES[0]) == 0)
-            chosen |= RC_LOG_DISCARD;
-        else if (strcmp(names[i], CATEGORIES[1]) == 0)
-            chosen |= RC_LOG_ERROR;
-        else
-            return rc_fmu_refuse(fmu, RC_ERROR, "the log has no category '%s'; it must be %s or %s",
-                                 names[i], CATEGORIES[0], CATEGORIES[1]);
+        size_t k = 0;
+        while (k < CATEGORY_COUNT && strcmp(names[i], CATEGORIES[k].name) != 0)
+            ++k;
+        if (k == CATEGORY_COUNT)
+            return rc_fmu_refuse(fmu, RC_ERROR, "the log has no category '%s'; it must be %s, %s "
+                                                "or %s", names[i], CATEGORIES[0].name,
+                                 CATEGORIES[1].name, CATEGORIES[2].name);
+        chosen |= CATEGORIES[k].bit;
     }
     fmu->categories = on ? fmu->categories | chosen : fmu->categories & ~chosen;
     return RC_OK;
@@ -194,7 +207,7 @@ rc_fmu *rc_fmu_create(const rc_fmu_request *request)
     fmu->log = request->log;
     fmu->logger = request->logger;
     fmu->environment = request->environment;
-    fmu->categories = request->logging ? RC_LOG_ALL : RC_LOG_ERROR;
+    fmu->categories = request->logging ? RC_LOG_ALL : RC_LOG_ERROR | RC_LOG_WARNING;
     if (create(fmu, request) == RC_OK)
         return fmu;
     rc_fmu_free(fmu);

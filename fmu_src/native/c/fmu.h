@@ -26,11 +26,12 @@ typedef enum {
 
 #define RC_LOG_DISCARD 1u /* categories, bits */
 #define RC_LOG_ERROR 2u
-#define RC_LOG_ALL 3u
+#define RC_LOG_WARNING 4u
+#define RC_LOG_ALL 7u
 
 typedef struct rc_fmu rc_fmu;
 
-/* Hands a sentence to the host's logger. */
+/* Hands a sentence to the host's logger; a warning has the status RC_OK. */
 typedef void (*rc_fmu_log)(const rc_fmu *fmu, rc_status status, const char *category,
                            const char *message);
 
@@ -88,6 +89,9 @@ rc_status rc_fmu_refuse(rc_fmu *fmu, rc_status status, const char *format, ...);
 
 /* Passes on what the model answered, with its sentence if it refused. */
 rc_status rc_fmu_pass(rc_fmu *fmu, rc_status status);
+
+/* Logs what is doubtful about the last step. */
+void rc_fmu_warn(const rc_fmu *fmu);
 
 /* Refuses a call in other phases than these, and without an argument that it needs. */
 rc_status rc_fmu_expect(rc_fmu *fmu, const char *call, unsigned phases);

@@ -128,6 +128,8 @@ rc_status rc_fmu_restore(rc_fmu *fmu, const void *saved)
     const rc_status status = rc_restore(fmu->model, bytes_of(from) + fmu->own_size);
     if (status == RC_OK)
         memcpy(fmu->head, bytes_of(from), fmu->own_size);
+    else if (rc_current_phase(fmu->model) == RC_INSTANTIATED)
+        memset(fmu->head, 0, fmu->own_size); /* to be initialised again, whatever it was before */
     return rc_fmu_pass(fmu, status);
 }
 

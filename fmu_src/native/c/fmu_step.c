@@ -114,6 +114,7 @@ rc_status rc_fmu_step(rc_fmu *fmu, double time, double step, int *ended_early)
         fmu->head->reached = rc_time(fmu->model);
         return rc_fmu_pass(fmu, status);
     }
+    rc_fmu_warn(fmu);
     if (fmu->head->sloped)
         memset(fmu->slopes, 0, fmu->input_count * sizeof(double));
     fmu->head->sloped = 0;

@@ -58,31 +58,40 @@ void rc_linearise_increments(rc_track *track, const rc_track_state *state)
     rc_operator *op = &track->operator_;
     const size_t count = op->active.count, stride = op->active.stride;
     double *increment = track->small, *deformation = increment + stride;
-    double *stiffness = deformation + stride, *damping = stiffness + stride;
     gather(&op->active, state->increment, increment);
     deform(op, state->force, track->basis.wheels, increment, deformation);
     for (size_t a = 0; a < count; ++a) {
-        stiffness[a] = rc_ballast_stiffness(&track->law, deformation[a]);
-        damping[a] = rc_ballast_damping(&track->law, deformation[a]);
+        op->stiffness[a] = rc_ballast_stiffness(&track->law, deformation[a]);
+        op->damping[a] = rc_ballast_damping(&track->law, deformation[a]);
     }
-    if (!invert_jacobian(track, stiffness, damping, op->correction))
+    if (!invert_jacobian(track, op->stiffness, op->damping, op->correction))
         for (size_t k = 0; k < count * stride; ++k)
             op->correction[k] = NAN; /* the sweeps will not converge, which is told */
+}
+
+void rc_demand_increments(rc_track *track, const double *forces, const double *increment,
+                          double *demanded)
+{
+    const rc_operator *op = &track->operator_;
+    double *deformation = track->small, *rate = deformation + op->active.stride;
+    deform(op, forces, track->basis.wheels, increment, deformation);
+    change_rates(op, forces, track->basis.wheels, increment, rate);
+    for (size_t a = 0; a < op->active.count; ++a)
+        demanded[a] = rc_ballast_force(&track->law, deformation[a], rate[a]);
 }
 
 int rc_solve_increments(rc_track *track, const double *forces)
 {
     rc_operator *op = &track->operator_;
     const size_t count = op->active.count, stride = op->active.stride;
-    double *increment = op->increment, *deformation = track->small;
-    double *rate = deformation + stride, *change = rate + stride, *defect = change + stride;
+    double *increment = op->increment;
+    double *change = track->small + 2 * stride, *defect = change + stride;
     const rc_track_state start = rc_view_state(&track->basis, op->start);
     gather(&op->active, start.increment, increment);
     for (int sweep = 0; count > 0; ++sweep) {
-        deform(op, forces, track->basis.wheels, increment, deformation);
-        change_rates(op, forces, track->basis.wheels, increment, rate);
+        rc_demand_increments(track, forces, increment, defect);
         for (size_t a = 0; a < count; ++a)
-            defect[a] = rc_ballast_force(&track->law, deformation[a], rate[a]) - increment[a];
+            defect[a] -= increment[a];
         rc_transform(change, op->correction, defect, count, stride);
         double largest = 0.0, largest_change = 0.0;
         int finite = 1;
@@ -99,7 +108,6 @@ int rc_solve_increments(rc_track *track, const double *forces)
     }
     return 1;
 }
-
 
 int rc_change_increments(rc_track *track, const double *forces, const double *force_change,
                          double *change)

@@ -6,7 +6,14 @@
 #include "model.h"
 
 /* How many variables a group has. */
-typedef enum { RC_ONE, RC_WHEELS, RC_GAUGES, RC_SUPPORTS, RC_DIMENSIONS } rc_dimension;
+typedef enum {
+    RC_ONE,
+    RC_WHEELS,
+    RC_FOLLOWERS, /* the wheels behind the first, counted from 2 */
+    RC_GAUGES,
+    RC_SUPPORTS,
+    RC_DIMENSIONS
+} rc_dimension;
 
 typedef struct {
     const char *name;
@@ -66,6 +73,7 @@ struct rc_model {
     int prepared, stepped;
     void *own;
     char message[RC_MESSAGE_SIZE];
+    char warning[RC_MESSAGE_SIZE];
 };
 
 /* Keeps a sentence for rc_message and returns the status. */
@@ -87,6 +95,13 @@ static inline const char *rc_text(const rc_model *model, size_t group)
 
 /* A section of float64 of exactly that many values, or NULL and a sentence. */
 const double *rc_require_section(rc_model *model, const char *name, size_t count);
+
+/* Reads the number of wheels of a model that has nothing else to count. */
+rc_status rc_read_wheels(rc_model *model);
+
+/* Refuse a parameter that is no finite number, or none above zero. */
+rc_status rc_require_finite(rc_model *model, size_t group, const char *unit, const char *remedy);
+rc_status rc_require_positive(rc_model *model, size_t group, const char *unit, const char *remedy);
 
 /* Bytes from texts to the last parameter. */
 size_t rc_parameter_bytes(const rc_model *model);

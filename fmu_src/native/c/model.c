@@ -30,6 +30,11 @@ const char *rc_message(const rc_model *model)
     return model->message;
 }
 
+const char *rc_warning(const rc_model *model)
+{
+    return model->warning;
+}
+
 rc_phase rc_current_phase(const rc_model *model)
 {
     return (rc_phase)model->head->phase;
@@ -85,12 +90,15 @@ static int has_finite_outputs(rc_model *model)
     return 1;
 }
 
-/* Works the initial state out if the inputs have changed since the last time. */
+/* Works the initial state out if parameters or inputs have changed since the last time. */
 static rc_status ensure_started(rc_model *model)
 {
     if (model->head->started)
         return RC_OK;
     memset(model->known, 0, model->kind->kind_count);
+    const rc_status prepared = rc_prepare(model);
+    if (prepared != RC_OK)
+        return prepared;
     const rc_status status = model->kind->start(model);
     if (status != RC_OK)
         return status;
@@ -123,6 +131,7 @@ rc_status rc_step(rc_model *model, double time, double step, rc_input_shape shap
                   double *reached)
 {
     *reached = model->head->time;
+    model->warning[0] = '\0';
     if (model->head->phase != RC_STEPPING)
         return rc_fail(model, RC_ERROR, "a step comes after the initialisation");
     if (!joins(time, model->head->time))

@@ -1,8 +1,8 @@
 /* What a host needs of a model: variables, initialisation, steps, states, derivatives.
  *
  * A model is fed with one resource (binary.h) and driven in this order: rc_create, rc_set of
- * parameters and inputs, rc_enter_initialisation, rc_set of inputs, rc_exit_initialisation, then
- * steps. Memory is claimed by rc_create and rc_enter_initialisation alone (and by rc_restore of a
+ * parameters and inputs, rc_enter_initialisation, rc_set of both, rc_exit_initialisation, then
+ * steps. Memory is claimed by rc_create and during the initialisation alone (and by rc_restore of a
  * state with other parameters). Instances share nothing but the resource, which nobody changes.
  *
  * Every function that can fail leaves the model as it was and a sentence in rc_message; only
@@ -38,10 +38,11 @@ typedef enum { RC_INSTANTIATED, RC_INITIALISING, RC_STEPPING } rc_phase;
 /* Variables that differ by an index only. The number of a variable is `first` plus its index; it
  * is the value reference of the FMU and the place in the declaration that Python makes. */
 typedef struct {
-    const char *name; /* "wheel[#].position": # stands for the index from 1 */
+    const char *name; /* "wheel[#].position": # stands for the index */
     rc_type type;
     rc_causality causality;
     uint32_t first, count;
+    uint32_t lowest; /* index in the name of the first one */
 } rc_group;
 
 typedef struct rc_model rc_model;
@@ -61,6 +62,9 @@ RC_API void rc_reset(rc_model *model);
 
 /* Why the last call failed; "" if none has. */
 RC_API const char *rc_message(const rc_model *model);
+
+/* What is doubtful about the last step though it was made; "" if nothing is. */
+RC_API const char *rc_warning(const rc_model *model);
 RC_API rc_phase rc_current_phase(const rc_model *model);
 RC_API double rc_time(const rc_model *model);
 
@@ -75,8 +79,8 @@ RC_API const rc_group *rc_group_of(const rc_model *model, uint32_t variable);
 RC_API size_t rc_name(const rc_model *model, uint32_t variable, char *name, size_t size);
 
 /* Values of variables of one type; Integer and Boolean travel as whole numbers in double.
- * Parameters are fixed once the initialisation has begun, constants always. During the
- * initialisation, outputs are those of the equilibrium under the inputs set so far. */
+ * Parameters are fixed once the initialisation has ended, constants always. During it, outputs are
+ * those of the equilibrium under the parameters and inputs set so far. */
 RC_API rc_status rc_get(rc_model *model, rc_type type, const uint32_t *variables, size_t count,
                         double *values);
 RC_API rc_status rc_set(rc_model *model, rc_type type, const uint32_t *variables, size_t count,
@@ -91,8 +95,9 @@ RC_API rc_status rc_set_group(rc_model *model, size_t group, const double *value
 RC_API rc_status rc_enter_initialisation(rc_model *model, double start_time);
 RC_API rc_status rc_exit_initialisation(rc_model *model);
 
-/* How the inputs run over a step: as the parameter linear_inputs says, held at their values, or on
- * straight lines from the last values to the present ones. */
+/* How the inputs run over a step: as the parameter linear_inputs says, from their values at its
+ * start on, or on straight lines from the last values to the present ones. From their start on,
+ * Track and Vehicle hold them; TrackContact and Masses continue them as they ran before. */
 typedef enum { RC_AS_PARAMETER, RC_HELD, RC_STRAIGHT } rc_input_shape;
 
 /* Moves on from `time` [s], where the model is, by `step` [s]. RC_DISCARD leaves everything as it
@@ -118,9 +123,10 @@ RC_API void rc_serialise(const rc_model *model, const void *state, void *bytes);
 RC_API rc_status rc_deserialise(rc_model *model, const void *bytes, size_t size, void *state);
 
 /* sensitivity = d(unknowns)/d(knowns) seed, for Real outputs after the last step and Real inputs
- * at its end (the interface Jacobian). Refused unless the last step succeeded and no state was
- * restored after it. By contact forces and rail displacements it is exact; by wheel positions, and
- * over steps that the track divides, it is a central difference with some 8 good digits. */
+ * as they were given for it (the interface Jacobian). Refused unless the last step succeeded and no
+ * state was restored after it. By contact forces and rail displacements it is exact; by wheel
+ * positions, over steps that the track divides, and for TrackContact it is a central difference with
+ * some 8 good digits. */
 RC_API rc_status rc_derivative(rc_model *model, const uint32_t *unknowns, size_t unknown_count,
                                const uint32_t *knowns, size_t known_count, const double *seed,
                                double *sensitivity);

@@ -40,17 +40,21 @@ static void press_contacts(const rc_track *track, const double *forces, const do
     }
 }
 
-int rc_apply_operator(rc_track *track, rc_track_state *state, const double *forces)
+void rc_press_rail(const rc_track *track, const double *forces, const double *increment,
+                   double *displacement)
+{
+    memcpy(displacement, track->operator_.free_contact, track->basis.wheels * sizeof(double));
+    press_contacts(track, forces, increment, displacement);
+}
+
+void rc_move_track(rc_track *track, rc_track_state *state, const double *forces)
 {
     const rc_basis *basis = &track->basis;
     const rc_operator *op = &track->operator_;
-    if (!rc_solve_increments(track, forces))
-        return 0;
     const rc_track_state start = rc_view_state(basis, op->start);
     memcpy(state->modal, op->free, basis->length * sizeof(double));
     drive(track, forces, op->increment, state);
-    memcpy(state->displacement, op->free_contact, basis->wheels * sizeof(double));
-    press_contacts(track, forces, op->increment, state->displacement);
+    rc_press_rail(track, forces, op->increment, state->displacement);
     memset(state->increment, 0, basis->supports * sizeof(double));
     for (size_t a = 0; a < op->active.count; ++a)
         state->increment[op->active.number[a]] = op->increment[a];
@@ -63,6 +67,13 @@ int rc_apply_operator(rc_track *track, rc_track_state *state, const double *forc
         state->position[i] = op->position[i];
         state->force[i] = forces[i];
     }
+}
+
+int rc_apply_operator(rc_track *track, rc_track_state *state, const double *forces)
+{
+    if (!rc_solve_increments(track, forces))
+        return 0;
+    rc_move_track(track, state, forces);
     return 1;
 }
 

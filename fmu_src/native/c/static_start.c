@@ -113,14 +113,6 @@ static void deform(rc_track *track, const equilibrium *at, rc_track_state *state
                        active->stride);
 }
 
-static double largest(const double *values, size_t count)
-{
-    double found = 0.0;
-    for (size_t a = 0; a < count; ++a)
-        found = isfinite(values[a]) ? fmax(found, fabs(values[a])) : INFINITY;
-    return found;
-}
-
 /* One sweep of Newton's iteration; 1 if it changed next to nothing, -1 if it failed. */
 static int sweep(rc_track *track, const equilibrium *at)
 {
@@ -150,11 +142,11 @@ static int sweep(rc_track *track, const equilibrium *at)
         at->rate_of_increment[a] = at->new_rate[a];
         at->increment[a] += at->change[a];
     }
-    const double scale = TOLERANCE * largest(at->increment, count);
-    const double rate_scale = TOLERANCE * largest(at->rate_of_increment, count) + scale;
+    const double scale = TOLERANCE * rc_largest(at->increment, count);
+    const double rate_scale = TOLERANCE * rc_largest(at->rate_of_increment, count) + scale;
     if (!isfinite(rate_scale))
         return -1;
-    return largest(at->change, count) <= scale && largest(at->defect, count) <= rate_scale;
+    return rc_largest(at->change, count) <= scale && rc_largest(at->defect, count) <= rate_scale;
 }
 
 /* Displacements of the rail under the wheels. */

@@ -1,52 +1,21 @@
 /* The track as a model: its variables, its start, its steps. */
-#include "track.h"
+#include "track_setup.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "observation.h"
-
 enum {
-    BENDING_STIFFNESS, SHEAR_STIFFNESS, MASS_PER_LENGTH, ROTARY_INERTIA, PAD_STIFFNESS, PAD_DAMPING,
-    SLEEPER_MASS, SLEEPER_SPACING, BALLAST_STIFFNESS, BALLAST_DAMPING,
-    BALLAST, BALLAST_ALPHA, BALLAST_BETA, BALLAST_DELTA,
-    MODE_PAIRS, RESIDUAL_FLEXIBILITY, SUPPORTS_PER_WHEEL, INITIAL_SPEED, GAUGE_POSITION,
-    POSITION, CONTACT_FORCE,
+    POSITION = RC_TRACK_PARAMETER_COUNT,
+    CONTACT_FORCE,
     FIRST_OUTPUT,
-    LINEAR_INPUTS = FIRST_OUTPUT + RC_BALLAST_FORCE + 1
+    LINEAR_INPUTS = FIRST_OUTPUT + RC_TRACK_OUTPUT_COUNT
 };
 
 static const rc_group_kind KINDS[] = {
-    [BENDING_STIFFNESS] = {"bending_stiffness", RC_REAL, RC_CONSTANT, RC_ONE},
-    [SHEAR_STIFFNESS] = {"shear_stiffness", RC_REAL, RC_CONSTANT, RC_ONE},
-    [MASS_PER_LENGTH] = {"mass_per_length", RC_REAL, RC_CONSTANT, RC_ONE},
-    [ROTARY_INERTIA] = {"rotary_inertia_per_length", RC_REAL, RC_CONSTANT, RC_ONE},
-    [PAD_STIFFNESS] = {"pad_stiffness", RC_REAL, RC_CONSTANT, RC_ONE},
-    [PAD_DAMPING] = {"pad_damping", RC_REAL, RC_CONSTANT, RC_ONE},
-    [SLEEPER_MASS] = {"sleeper_mass", RC_REAL, RC_CONSTANT, RC_ONE},
-    [SLEEPER_SPACING] = {"sleeper_spacing", RC_REAL, RC_CONSTANT, RC_ONE},
-    [BALLAST_STIFFNESS] = {"ballast_stiffness", RC_REAL, RC_CONSTANT, RC_ONE},
-    [BALLAST_DAMPING] = {"ballast_damping", RC_REAL, RC_CONSTANT, RC_ONE},
-    [BALLAST] = {"ballast", RC_TEXT, RC_PARAMETER, RC_ONE},
-    [BALLAST_ALPHA] = {"ballast_alpha", RC_REAL, RC_PARAMETER, RC_ONE},
-    [BALLAST_BETA] = {"ballast_beta", RC_REAL, RC_PARAMETER, RC_ONE},
-    [BALLAST_DELTA] = {"ballast_delta", RC_REAL, RC_PARAMETER, RC_ONE},
-    [MODE_PAIRS] = {"mode_pairs", RC_INTEGER, RC_CONSTANT, RC_ONE},
-    [RESIDUAL_FLEXIBILITY] = {"residual_flexibility", RC_BOOLEAN, RC_CONSTANT, RC_ONE},
-    [SUPPORTS_PER_WHEEL] = {"supports_per_wheel", RC_INTEGER, RC_PARAMETER, RC_ONE},
-    [INITIAL_SPEED] = {"initial_speed", RC_REAL, RC_PARAMETER, RC_ONE},
-    [GAUGE_POSITION] = {"gauge[#].position", RC_REAL, RC_PARAMETER, RC_GAUGES},
+    RC_TRACK_PARAMETERS,
     [POSITION] = {"wheel[#].position", RC_REAL, RC_INPUT, RC_WHEELS},
     [CONTACT_FORCE] = {"wheel[#].contact_force", RC_REAL, RC_INPUT, RC_WHEELS},
-    [FIRST_OUTPUT + RC_RAIL_DISPLACEMENT] = {"wheel[#].rail_displacement", RC_REAL, RC_OUTPUT,
-                                             RC_WHEELS},
-    [FIRST_OUTPUT + RC_RAIL_VELOCITY] = {"wheel[#].rail_velocity", RC_REAL, RC_OUTPUT, RC_WHEELS},
-    [FIRST_OUTPUT + RC_WHEEL_MOMENT] = {"wheel[#].bending_moment", RC_REAL, RC_OUTPUT, RC_WHEELS},
-    [FIRST_OUTPUT + RC_GAUGE_MOMENT] = {"gauge[#].bending_moment", RC_REAL, RC_OUTPUT, RC_GAUGES},
-    [FIRST_OUTPUT + RC_SLEEPER_DISPLACEMENT] = {"sleeper[#].displacement", RC_REAL, RC_OUTPUT,
-                                                RC_SUPPORTS},
-    [FIRST_OUTPUT + RC_PAD_FORCE] = {"pad[#].force", RC_REAL, RC_OUTPUT, RC_SUPPORTS},
-    [FIRST_OUTPUT + RC_BALLAST_FORCE] = {"ballast[#].force", RC_REAL, RC_OUTPUT, RC_SUPPORTS},
+    RC_TRACK_OUTPUTS(FIRST_OUTPUT),
     [LINEAR_INPUTS] = {"linear_inputs", RC_BOOLEAN, RC_PARAMETER, RC_ONE},
 };
 
@@ -56,14 +25,9 @@ static const rc_group_kind KINDS[] = {
 static rc_status open_track(rc_model *model)
 {
     rc_track *track = model->own;
-    const rc_status status = rc_read_basis(model, &track->basis);
-    if (status != RC_OK)
-        return status;
-    model->dimensions[RC_WHEELS] = track->basis.wheels;
-    model->dimensions[RC_GAUGES] = track->basis.gauges;
-    model->dimensions[RC_SUPPORTS] = track->basis.supports;
+    const rc_status status = rc_open_track(model, track);
     model->dynamic_count = rc_count_state(&track->basis);
-    return RC_OK;
+    return status;
 }
 
 static void release(rc_model *model)
@@ -71,56 +35,10 @@ static void release(rc_model *model)
     rc_release_track(model->own);
 }
 
-static rc_status read_ballast(rc_model *model, rc_track *track)
-{
-    const char *kind = rc_text(model, BALLAST);
-    track->state_dependent = strcmp(kind, "state_dependent") == 0;
-    if (!track->state_dependent && strcmp(kind, "linear") != 0)
-        return rc_fail(model, RC_ERROR, "track: ballast is '%s'; it must be 'state_dependent' or "
-                                        "'linear'", kind);
-    track->law = (rc_ballast_law){
-        .alpha = *rc_values(model, BALLAST_ALPHA),
-        .beta = *rc_values(model, BALLAST_BETA),
-        .delta = *rc_values(model, BALLAST_DELTA),
-        .tau = track->basis.ballast_damping / track->basis.ballast_stiffness};
-    const rc_ballast_law *law = &track->law;
-    if (track->state_dependent &&
-        !(isfinite(law->alpha) && isfinite(law->beta) && isfinite(law->delta)))
-        return rc_fail(model, RC_ERROR, "ballast: alpha = %g, beta = %g, delta = %g must be finite "
-                                        "numbers", law->alpha, law->beta, law->delta);
-    return RC_OK;
-}
-
-rc_status rc_refuse_position(rc_model *model, rc_status status, double position)
-{
-    return rc_fail(model, status,
-                   "track: position %.17g m lies outside the track of 0 to %g m; start later, stop "
-                   "earlier or use more bays", position,
-                   ((const rc_track *)model->own)->basis.track_length);
-}
-
 static rc_status prepare(rc_model *model)
 {
-    rc_track *track = model->own;
-    const double supports = *rc_values(model, SUPPORTS_PER_WHEEL);
-    if (!(supports >= 1.0))
-        return rc_fail(model, RC_ERROR, "track: supports_per_wheel = %g must be at least 1",
-                       supports);
-    track->per_wheel =
-        supports < (double)track->basis.supports ? (size_t)supports : track->basis.supports;
-    track->initial_speed = *rc_values(model, INITIAL_SPEED);
     model->linear = *rc_values(model, LINEAR_INPUTS) != 0.0;
-    if (!isfinite(track->initial_speed))
-        return rc_fail(model, RC_ERROR, "track: initial_speed = %g m/s must be finite",
-                       track->initial_speed);
-    if (read_ballast(model, track) != RC_OK || rc_claim_track(model, track) != RC_OK)
-        return RC_ERROR;
-    for (size_t k = 0; k < track->basis.gauges; ++k) {
-        const double position = rc_values(model, GAUGE_POSITION)[k];
-        if (!rc_locate(&track->basis, position, &track->gauges[k]))
-            return rc_refuse_position(model, RC_ERROR, position);
-    }
-    return RC_OK;
+    return rc_prepare_track(model, model->own);
 }
 
 /* Refuses wheels beyond the track and forces that are no numbers; leaves the places of the wheels
@@ -129,32 +47,23 @@ static rc_status check_inputs(rc_model *model, rc_status otherwise)
 {
     rc_track *track = model->own;
     const double *forces = rc_values(model, CONTACT_FORCE);
-    const double *positions = rc_values(model, POSITION);
     for (size_t i = 0; i < track->basis.wheels; ++i)
         if (!(fabs(forces[i]) <= MOST_FORCE))
             return rc_fail(model, otherwise,
                            "track: contact force %g N of wheel %zu must be a finite number of at "
                            "most %g N; look for the cause in the vehicle", forces[i], i + 1,
                            MOST_FORCE);
-    for (size_t i = 0; i < track->basis.wheels; ++i)
-        if (!rc_locate(&track->basis, positions[i], &track->points[i]))
-            return rc_refuse_position(model, otherwise, positions[i]);
-    return RC_OK;
+    return rc_locate_wheels(model, track, rc_values(model, POSITION), otherwise);
 }
 
 static rc_status start(rc_model *model)
 {
     rc_track *track = model->own;
     rc_track_state state = rc_view_state(&track->basis, model->dynamic);
-    const double *positions = rc_values(model, POSITION);
     if (check_inputs(model, RC_ERROR) != RC_OK)
         return RC_ERROR;
-    rc_choose_supports(track, positions);
-    if (!rc_static_start(track, &state, rc_values(model, CONTACT_FORCE)))
-        return rc_fail(model, RC_ERROR, "track: no static equilibrium found under the contact "
-                                        "forces; check the ballast law");
-    memcpy(state.position, positions, track->basis.wheels * sizeof(double));
-    return RC_OK;
+    return rc_start_track(model, track, &state, rc_values(model, POSITION),
+                          rc_values(model, CONTACT_FORCE));
 }
 
 double rc_count_parts(double step)

@@ -33,7 +33,8 @@ typedef struct {
     double *free_active, *free_rate;        /* (stride) */
     double *active_contact, *rate_contact;  /* (wheels, stride): per contact force */
     double *contact_active;                 /* (wheels, stride): per increment */
-    double *correction;                     /* (stride, stride) */
+    double *stiffness, *damping;            /* (stride): tangents at the step's start */
+    double *correction; /* (stride, stride): inverse Jacobian of the increments' equation */
     double *increment;                      /* (stride), of the step applied last */
 } rc_operator;
 
@@ -42,7 +43,7 @@ typedef struct {
     rc_ballast_law law;
     int state_dependent;
     int linear; /* of the last step */
-    size_t per_wheel;
+    size_t per_wheel, room; /* room: most active supports, filled up */
     double initial_speed;
     rc_rail_point *gauges, *points; /* (gauges), (wheels) */
     rc_exponentials exponentials;
@@ -87,6 +88,10 @@ void rc_linearise_increments(rc_track *track, const rc_track_state *state);
  * Newton's iteration with that Jacobian; 0 if it does not converge. */
 int rc_solve_increments(rc_track *track, const double *forces);
 
+/* Increments that the motion under given forces and increments asks for. */
+void rc_demand_increments(rc_track *track, const double *forces, const double *increment,
+                          double *demanded);
+
 /* What a change of the forces changes in the increments found last; there must be room for the
  * Jacobian behind `change`, which track->products has. 0 if it is singular. */
 int rc_change_increments(rc_track *track, const double *forces, const double *force_change,
@@ -96,7 +101,14 @@ int rc_change_increments(rc_track *track, const double *forces, const double *fo
  * at track->points. */
 void rc_load_track(rc_track *track, rc_track_state *state);
 
-/* Moves the state to the end of the step; 0 if the increments do not converge. */
+/* Rail displacements under the wheels at the end of the step under given forces and increments. */
+void rc_press_rail(const rc_track *track, const double *forces, const double *increment,
+                   double *displacement);
+
+/* Moves the state to the end of the step under given forces and the operator's increments. */
+void rc_move_track(rc_track *track, rc_track_state *state, const double *forces);
+
+/* The same with increments that agree with the forces; 0 if they do not converge. */
 int rc_apply_operator(rc_track *track, rc_track_state *state, const double *forces);
 
 /* Its derivative: what a change of the contact forces changes in the state. */
@@ -109,9 +121,6 @@ double rc_count_parts(double step);
  * the dynamic values being as before. */
 int rc_advance_track(rc_track *track, double *dynamic, double step, const double *positions,
                      const double *forces);
-
-/* Says that a position is not on the track. */
-rc_status rc_refuse_position(rc_model *model, rc_status status, double position);
 
 /* See rc_class. */
 rc_status rc_derive_track(rc_model *model, const double *seed, double *changes);

@@ -2,8 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "observation.h"
-#include "track.h"
+#include "track_setup.h"
 
 #define SMALL_MOVE 1e-5  /* m; of a position, to difference a step */
 #define SMALL_FORCE 10.0 /* N; likewise of a contact force */
@@ -41,7 +40,7 @@ static rc_status repeat(rc_model *model, const double *seed, double factor, doub
         track->moved[i] = present.position[i] + factor * seed[i];
         track->pressed[i] = present.force[i] + factor * seed[wheels + i];
         if (!rc_locate(&track->basis, track->moved[i], &track->points[i]))
-            return rc_refuse_position(model, RC_DISCARD, track->moved[i]);
+            return rc_refuse_position(model, track, RC_DISCARD, track->moved[i]);
     }
     memcpy(track->after, track->before, rc_count_state(&track->basis) * sizeof(double));
     if (!rc_advance_track(track, track->after, track->last_step, track->moved, track->pressed))

@@ -69,6 +69,8 @@ static void take_operator(store *from, rc_operator *op, const rc_basis *basis, s
     op->active_contact = numbers(from, wheels * room);
     op->rate_contact = numbers(from, wheels * room);
     op->contact_active = numbers(from, wheels * room);
+    op->stiffness = numbers(from, room);
+    op->damping = numbers(from, room);
     op->correction = numbers(from, room * room);
     op->increment = numbers(from, room);
 }
@@ -125,7 +127,7 @@ rc_status rc_claim_track(rc_model *model, rc_track *track)
         track->per_wheel < basis->supports ? track->per_wheel : basis->supports;
     const size_t most = basis->wheels * per_wheel < basis->supports ? basis->wheels * per_wheel
                                                                     : basis->supports;
-    const size_t room = rc_stride(most);
+    const size_t room = track->room = rc_stride(most);
     store sizes = {NULL, 0};
     rc_release_track(track);
     take_all(&sizes, track, room);

@@ -1,4 +1,5 @@
 /* Variables of an instance by number. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -34,8 +35,26 @@ size_t rc_name(const rc_model *model, uint32_t variable, char *name, size_t size
     const int length =
         mark == NULL ? snprintf(name, size, "%s", group->name)
                      : snprintf(name, size, "%.*s%lu%s", before, group->name,
-                                (unsigned long)(variable - group->first + 1), mark + 1);
+                                (unsigned long)(variable - group->first + group->lowest), mark + 1);
     return length > 0 && (size_t)length < size ? (size_t)length : 0;
+}
+
+rc_status rc_require_finite(rc_model *model, size_t group, const char *unit, const char *remedy)
+{
+    const double value = *rc_values(model, group);
+    if (isfinite(value))
+        return RC_OK;
+    return rc_fail(model, RC_ERROR, "%s is %g %s; it must be a finite number: %s",
+                   model->groups[group].name, value, unit, remedy);
+}
+
+rc_status rc_require_positive(rc_model *model, size_t group, const char *unit, const char *remedy)
+{
+    const double value = *rc_values(model, group);
+    if (isfinite(value) && value > 0.0)
+        return RC_OK;
+    return rc_fail(model, RC_ERROR, "%s is %g %s; it must be a finite number above zero: %s",
+                   model->groups[group].name, value, unit, remedy);
 }
 
 static const char *type_name(rc_type type)
@@ -107,13 +126,13 @@ static rc_status may_set(rc_model *model, uint32_t variable)
     if (causality == RC_CONSTANT)
         return rc_fail(model, RC_ERROR, "%s is fixed in this FMU, whose modes were computed with "
                                         "it; build another FMU", name);
-    if (model->head->phase != RC_INSTANTIATED)
-        return rc_fail(model, RC_ERROR, "%s is fixed once initialisation has begun; set it before",
-                       name);
+    if (model->head->phase == RC_STEPPING)
+        return rc_fail(model, RC_ERROR, "%s is fixed once the initialisation has ended; set it "
+                                        "before", name);
     return RC_OK;
 }
 
-/* What was worked out from the inputs is so no more while they still set the initial state. */
+/* What was worked out from the values is so no more while they still set the initial state. */
 static void note_change(rc_model *model)
 {
     if (model->head->phase == RC_INITIALISING) {
@@ -171,5 +190,6 @@ rc_status rc_set_text(rc_model *model, uint32_t variable, const char *text)
     char *place = model->texts + RC_TEXT_SIZE * model->slots[model->group_of[variable]];
     memset(place, 0, RC_TEXT_SIZE); /* equal parameters are equal bytes */
     memcpy(place, text, length);
+    note_change(model);
     return RC_OK;
 }

@@ -18,14 +18,7 @@ static const rc_group_kind KINDS[] = {
     [HERTZ_COEFFICIENT] = {"hertz_coefficient", RC_REAL, RC_PARAMETER, RC_ONE},
     [INITIAL_POSITION] = {"initial_position", RC_REAL, RC_PARAMETER, RC_ONE},
     [SUBSTEP] = {"substep", RC_REAL, RC_PARAMETER, RC_ONE},
-    [RAIL_IRREGULARITY] = {"rail_irregularity", RC_TEXT, RC_PARAMETER, RC_ONE},
-    [FLAT_SHAPE] = {"flat.shape", RC_TEXT, RC_PARAMETER, RC_ONE},
-    [FLAT_LENGTH] = {"flat.length", RC_REAL, RC_PARAMETER, RC_ONE},
-    [FLAT_DEPTH] = {"flat.depth", RC_REAL, RC_PARAMETER, RC_ONE},
-    [FLAT_WHEEL] = {"flat.wheel", RC_INTEGER, RC_PARAMETER, RC_ONE},
-    [FLAT_POSITION] = {"flat.position", RC_REAL, RC_PARAMETER, RC_ONE},
-    [FLAT_PERIODIC] = {"flat.periodic", RC_BOOLEAN, RC_PARAMETER, RC_ONE},
-    [FLAT_ROLLED] = {"flat.rolled", RC_BOOLEAN, RC_PARAMETER, RC_ONE},
+    RC_SURFACE_PARAMETERS(SURFACE),
     [RAIL_DISPLACEMENT] = {"wheel[#].rail_displacement", RC_REAL, RC_INPUT, RC_WHEELS},
     [POSITION] = {"wheel[#].position", RC_REAL, RC_OUTPUT, RC_WHEELS},
     [CONTACT_FORCE] = {"wheel[#].contact_force", RC_REAL, RC_OUTPUT, RC_WHEELS},
@@ -78,7 +71,7 @@ static rc_status step_vehicle(rc_model *model, double step, int linear)
                                           "shorter step", step, MOST_SUBSTEPS, own->substep);
     own->linear = linear;
     for (size_t i = 0; i < own->wheels; ++i) {
-        const rc_way over = {.start = *from.start, .time = *from.time, .step = step,
+        const rc_way over = {.start = *from.start, .time = model->head->time, .step = step,
                           .rail_start = own->linear ? from.rail[i] : rail[i],
                           .rail_end = rail[i]};
         const rc_wheel_motion motion = rc_roll_wheel(
@@ -93,6 +86,7 @@ static rc_status step_vehicle(rc_model *model, double step, int linear)
         to.rail[i] = rail[i];
     }
     *to.start = *from.start;
+    *from.time = model->head->time; /* the host's, which need not be a sum of steps */
     *to.time = *from.time + step;
     memcpy(own->before, model->dynamic, bytes);
     memcpy(model->dynamic, own->after, bytes);

@@ -3,9 +3,9 @@
 #ifndef RC_VEHICLE_H
 #define RC_VEHICLE_H
 
-#include "flat.h"
 #include "instance.h"
 #include "motion.h"
+#include "surfaces.h"
 #include "wheel.h"
 
 /* Groups of variables, in the order of the declaration. */
@@ -13,9 +13,8 @@ enum {
     SPEED, SPEED_TABLE,
     WHEEL_MASS, STATIC_WHEEL_LOAD, AXLE_BASE, WHEEL_RADIUS, HERTZ_COEFFICIENT, INITIAL_POSITION,
     SUBSTEP,
-    RAIL_IRREGULARITY, FLAT_SHAPE, FLAT_LENGTH, FLAT_DEPTH, FLAT_WHEEL, FLAT_POSITION, FLAT_PERIODIC,
-    FLAT_ROLLED,
-    RAIL_DISPLACEMENT,
+    SURFACE,
+    RAIL_DISPLACEMENT = SURFACE + RC_SURFACE_PARAMETER_COUNT,
     POSITION, CONTACT_FORCE, DISPLACEMENT, VELOCITY, GAP, IN_CONTACT,
     LINEAR_INPUTS
 };
@@ -23,8 +22,7 @@ enum {
 typedef struct {
     size_t wheels;
     rc_motion motion;
-    rc_flat flat;
-    rc_curve irregularity;
+    rc_surfaces surfaces;
     rc_wheel wheel;
     double axle_base, initial_position, substep;
     int linear; /* of the last step */

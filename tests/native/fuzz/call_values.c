@@ -104,7 +104,7 @@ static void check_taken(school *at, pupil *of, const request *made)
 static void set_values(school *at, pupil *of, rc_type type)
 {
     static const rc_causality settable[] = {RC_INPUT, RC_PARAMETER};
-    const size_t choices = of->is.phase == CREATED ? 2 : 1 + (size_t)draw_once_in(&at->draw, 10);
+    const size_t choices = of->is.phase & (CREATED | INITIALISING) ? 2 : 1 + (size_t)draw_once_in(&at->draw, 10);
     request made = make_request(at, type, settable, choices, draw_count(at));
     char *text = type == RC_TEXT ? draw_text(&at->draw) : NULL;
     unsigned right = right_in(of, RUNNING);
@@ -112,7 +112,8 @@ static void set_values(school *at, pupil *of, rc_type type)
         const rc_group *group = rc_group_of(at->model, made.memory[i]);
         if (group == NULL || group->type != type || group->causality == RC_OUTPUT ||
             group->causality == RC_CONSTANT ||
-            (group->causality == RC_PARAMETER && of->is.phase != CREATED))
+            (group->causality == RC_PARAMETER &&
+             !(of->is.phase & (CREATED | INITIALISING))))
             right = MAY_ERROR;
         if (type != RC_TEXT) {
             made.list.values[i] = draw_value(at, type, made.memory[i]);

@@ -1,0 +1,67 @@
+/* What the models of a track have in common as models: parameters, outputs, checks. */
+#ifndef RC_TRACK_SETUP_H
+#define RC_TRACK_SETUP_H
+
+#include "observation.h"
+#include "track.h"
+
+/* Groups that the variables of every track begin with, in the order of the declaration. */
+enum {
+    BENDING_STIFFNESS, SHEAR_STIFFNESS, MASS_PER_LENGTH, ROTARY_INERTIA, PAD_STIFFNESS, PAD_DAMPING,
+    SLEEPER_MASS, SLEEPER_SPACING, BALLAST_STIFFNESS, BALLAST_DAMPING,
+    BALLAST, BALLAST_ALPHA, BALLAST_BETA, BALLAST_DELTA,
+    MODE_PAIRS, RESIDUAL_FLEXIBILITY, SUPPORTS_PER_WHEEL, INITIAL_SPEED, GAUGE_POSITION,
+    RC_TRACK_PARAMETER_COUNT
+};
+
+#define RC_TRACK_PARAMETERS                                                                       \
+    [BENDING_STIFFNESS] = {"bending_stiffness", RC_REAL, RC_CONSTANT, RC_ONE},                     \
+    [SHEAR_STIFFNESS] = {"shear_stiffness", RC_REAL, RC_CONSTANT, RC_ONE},                         \
+    [MASS_PER_LENGTH] = {"mass_per_length", RC_REAL, RC_CONSTANT, RC_ONE},                         \
+    [ROTARY_INERTIA] = {"rotary_inertia_per_length", RC_REAL, RC_CONSTANT, RC_ONE},                \
+    [PAD_STIFFNESS] = {"pad_stiffness", RC_REAL, RC_CONSTANT, RC_ONE},                             \
+    [PAD_DAMPING] = {"pad_damping", RC_REAL, RC_CONSTANT, RC_ONE},                                 \
+    [SLEEPER_MASS] = {"sleeper_mass", RC_REAL, RC_CONSTANT, RC_ONE},                               \
+    [SLEEPER_SPACING] = {"sleeper_spacing", RC_REAL, RC_CONSTANT, RC_ONE},                         \
+    [BALLAST_STIFFNESS] = {"ballast_stiffness", RC_REAL, RC_CONSTANT, RC_ONE},                     \
+    [BALLAST_DAMPING] = {"ballast_damping", RC_REAL, RC_CONSTANT, RC_ONE},                         \
+    [BALLAST] = {"ballast", RC_TEXT, RC_PARAMETER, RC_ONE},                                        \
+    [BALLAST_ALPHA] = {"ballast_alpha", RC_REAL, RC_PARAMETER, RC_ONE},                            \
+    [BALLAST_BETA] = {"ballast_beta", RC_REAL, RC_PARAMETER, RC_ONE},                              \
+    [BALLAST_DELTA] = {"ballast_delta", RC_REAL, RC_PARAMETER, RC_ONE},                            \
+    [MODE_PAIRS] = {"mode_pairs", RC_INTEGER, RC_CONSTANT, RC_ONE},                                \
+    [RESIDUAL_FLEXIBILITY] = {"residual_flexibility", RC_BOOLEAN, RC_CONSTANT, RC_ONE},            \
+    [SUPPORTS_PER_WHEEL] = {"supports_per_wheel", RC_INTEGER, RC_PARAMETER, RC_ONE},               \
+    [INITIAL_SPEED] = {"initial_speed", RC_REAL, RC_PARAMETER, RC_ONE},                            \
+    [GAUGE_POSITION] = {"gauge[#].position", RC_REAL, RC_PARAMETER, RC_GAUGES}
+
+/* Outputs of every track, in the order of rc_observed. */
+#define RC_TRACK_OUTPUT_COUNT (RC_BALLAST_FORCE + 1)
+#define RC_TRACK_OUTPUTS(first)                                                                   \
+    [(first) + RC_RAIL_DISPLACEMENT] = {"wheel[#].rail_displacement", RC_REAL, RC_OUTPUT,          \
+                                        RC_WHEELS},                                                \
+    [(first) + RC_RAIL_VELOCITY] = {"wheel[#].rail_velocity", RC_REAL, RC_OUTPUT, RC_WHEELS},      \
+    [(first) + RC_WHEEL_MOMENT] = {"wheel[#].bending_moment", RC_REAL, RC_OUTPUT, RC_WHEELS},      \
+    [(first) + RC_GAUGE_MOMENT] = {"gauge[#].bending_moment", RC_REAL, RC_OUTPUT, RC_GAUGES},      \
+    [(first) + RC_SLEEPER_DISPLACEMENT] = {"sleeper[#].displacement", RC_REAL, RC_OUTPUT,          \
+                                           RC_SUPPORTS},                                           \
+    [(first) + RC_PAD_FORCE] = {"pad[#].force", RC_REAL, RC_OUTPUT, RC_SUPPORTS},                  \
+    [(first) + RC_BALLAST_FORCE] = {"ballast[#].force", RC_REAL, RC_OUTPUT, RC_SUPPORTS}
+
+/* Reads the basis and says how many wheels, gauges and supports there are. */
+rc_status rc_open_track(rc_model *model, rc_track *track);
+
+/* Reads the parameters and claims what they ask for. */
+rc_status rc_prepare_track(rc_model *model, rc_track *track);
+
+/* Leaves the places of the wheels in track->points; refuses a wheel beyond the track. */
+rc_status rc_locate_wheels(rc_model *model, rc_track *track, const double *positions,
+                           rc_status otherwise);
+rc_status rc_refuse_position(rc_model *model, const rc_track *track, rc_status status,
+                             double position);
+
+/* Static equilibrium under wheels at track->points, which are those of `positions`. */
+rc_status rc_start_track(rc_model *model, rc_track *track, rc_track_state *state,
+                         const double *positions, const double *forces);
+
+#endif
