@@ -69,7 +69,7 @@ static int take(school *at, pupil *of, double time, double step, int without)
     if (is->phase == STEPPING && !without_result) {
         if (given == OK && !early && reached != time + step)
             blame(at, "reached %.17g s from %.17g s in a step of %g s", reached, time, step);
-        if (given == OK && early && !(reached > time && reached < time + step))
+        if (given == OK && early && !(reached >= time && reached <= time + step))
             blame(at, "returned early at %.17g s", reached);
         if (given == DISCARD && reached != is->time)
             blame(at, "discarded a step and went to %.17g s from %.17g s", reached, is->time);
