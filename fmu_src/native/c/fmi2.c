@@ -13,8 +13,9 @@ static void tell(const rc_fmu *fmu, rc_status status, const char *category, cons
     }
     *to = '\0';
     const fmi2CallbackLogger logger = (fmi2CallbackLogger)fmu->logger;
+    const char *name = fmu->name == NULL ? "" : fmu->name; /* it may be what is missing */
     const fmi2Status said = status == RC_OK ? fmi2Warning : rc_fmi2_status(status);
-    logger(fmu->environment, fmu->name, said, category, escaped);
+    logger(fmu->environment, name, said, category, escaped);
 }
 
 const char *fmi2GetTypesPlatform(void)

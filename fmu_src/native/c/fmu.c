@@ -218,6 +218,7 @@ void rc_fmu_free(rc_fmu *fmu)
 {
     if (fmu == NULL)
         return;
+    rc_fmu_free_states(fmu);
     rc_destroy(fmu->model);
     free(fmu->resource);
     free(fmu->name);

@@ -63,6 +63,7 @@ struct rc_fmu {
     double *present, *ends; /* scratch for inputs */
     double *gaps, *gaps_now; /* scratch for gaps before a step and after it */
     void *before, *start;   /* scratch for states of the model: before a jump, before a step */
+    struct rc_saved *states, *freed_states; /* all that were saved, and those freed of them */
     char message[RC_MESSAGE_SIZE];
 };
 
@@ -128,7 +129,9 @@ rc_status rc_fmu_adjoint(rc_fmu *fmu, const uint32_t *unknowns, size_t unknown_c
                          const uint32_t *knowns, size_t known_count, const double *seed,
                          double *sensitivity);
 
-/* Saved states; `*saved` is made where it is NULL, written over where it is not. */
+/* Saved states; `*saved` is made where it is NULL, written over where it is not. They end with
+ * their instance; others of the same resource may read them until then. */
+void rc_fmu_free_states(rc_fmu *fmu);
 rc_status rc_fmu_save(rc_fmu *fmu, void **saved);
 rc_status rc_fmu_restore(rc_fmu *fmu, const void *saved);
 rc_status rc_fmu_forget(rc_fmu *fmu, void **saved);

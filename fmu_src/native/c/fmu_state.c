@@ -9,18 +9,25 @@
 
 #include "checksum.h"
 #include "fmu.h"
+#include "instance.h"
 
 #define FORMAT 1u
 #define HEAD 16u
 
 static const char MAGIC[4] = {'R', 'C', 'F', 'M'};
 
-/* A saved state: its size, by which other pointers are told from it, then its bytes. */
-typedef struct {
+/* A saved state; its bytes follow. The instance keeps all that it made until its own end, those
+ * that were freed for its next states, so that a stale pointer is known as such. */
+typedef struct rc_saved rc_saved;
+struct rc_saved {
     char magic[4];
-    uint32_t format;
+    uint32_t identity; /* of the resource */
     uint64_t size;
-} rc_saved;
+    const rc_fmu *owner;
+    rc_saved *next;      /* of the same owner */
+    rc_saved *next_free;
+    uint64_t freed;
+};
 
 static unsigned char *bytes_of(const rc_saved *saved)
 {
@@ -36,11 +43,28 @@ static size_t saved_size(const rc_fmu *fmu)
 static const rc_saved *check(rc_fmu *fmu, const void *pointer)
 {
     const rc_saved *saved = pointer;
-    if (saved != NULL && memcmp(saved->magic, MAGIC, sizeof MAGIC) == 0 &&
-        saved->size == saved_size(fmu))
+    const char *fault = NULL;
+    if (saved == NULL)
+        fault = "the state is NULL";
+    else if (memcmp(saved->magic, MAGIC, sizeof MAGIC) != 0 || saved->size != saved_size(fmu) ||
+             saved->identity != fmu->model->resource.checksum)
+        fault = "this is no state of such an FMU";
+    else if (saved->freed)
+        fault = "this state was freed before";
+    if (fault == NULL)
         return saved;
-    (void)rc_fmu_refuse(fmu, RC_ERROR, saved == NULL ? "the state is NULL"
-                                                     : "this is no state of such an FMU");
+    (void)rc_fmu_refuse(fmu, RC_ERROR, "%s", fault);
+    return NULL;
+}
+
+/* The same for a state that is to be changed or freed, which only its own instance may. */
+static rc_saved *check_own(rc_fmu *fmu, void *pointer)
+{
+    const rc_saved *saved = check(fmu, pointer);
+    if (saved == NULL || saved->owner == fmu)
+        return saved == NULL ? NULL : pointer;
+    (void)rc_fmu_refuse(fmu, RC_ERROR, "this state was saved by another instance, which alone may "
+                                       "change or free it");
     return NULL;
 }
 
@@ -48,16 +72,41 @@ static const rc_saved *check(rc_fmu *fmu, const void *pointer)
 static rc_saved *place(rc_fmu *fmu, void *present)
 {
     if (present != NULL)
-        return check(fmu, present) == NULL ? NULL : present;
-    rc_saved *saved = malloc(sizeof *saved + saved_size(fmu));
+        return check_own(fmu, present);
+    rc_saved *saved = fmu->freed_states;
+    if (saved != NULL) {
+        fmu->freed_states = saved->next_free;
+        saved->freed = 0;
+        return saved;
+    }
+    saved = malloc(sizeof *saved + saved_size(fmu));
     if (saved == NULL) {
         (void)rc_fmu_refuse(fmu, RC_ERROR, "there is not enough memory for another state");
         return NULL;
     }
+    *saved = (rc_saved){.identity = fmu->model->resource.checksum,
+                        .size = saved_size(fmu),
+                        .owner = fmu,
+                        .next = fmu->states};
     memcpy(saved->magic, MAGIC, sizeof MAGIC);
-    saved->format = FORMAT;
-    saved->size = saved_size(fmu);
+    fmu->states = saved;
     return saved;
+}
+
+static void give_back(rc_fmu *fmu, rc_saved *saved)
+{
+    saved->freed = 1;
+    saved->next_free = fmu->freed_states;
+    fmu->freed_states = saved;
+}
+
+void rc_fmu_free_states(rc_fmu *fmu)
+{
+    rc_saved *next;
+    for (rc_saved *saved = fmu->states; saved != NULL; saved = next) {
+        next = saved->next;
+        free(saved);
+    }
 }
 
 rc_status rc_fmu_save(rc_fmu *fmu, void **saved)
@@ -79,6 +128,8 @@ rc_status rc_fmu_restore(rc_fmu *fmu, const void *saved)
     const rc_status status = rc_restore(fmu->model, bytes_of(from) + fmu->own_size);
     if (status == RC_OK)
         memcpy(fmu->head, bytes_of(from), fmu->own_size);
+    else if (rc_current_phase(fmu->model) == RC_INSTANTIATED)
+        memset(fmu->head, 0, fmu->own_size); /* to be initialised again, whatever it was before */
     return rc_fmu_pass(fmu, status);
 }
 
@@ -86,9 +137,10 @@ rc_status rc_fmu_forget(rc_fmu *fmu, void **saved)
 {
     if (*saved == NULL)
         return RC_OK;
-    if (check(fmu, *saved) == NULL)
+    rc_saved *own = check_own(fmu, *saved);
+    if (own == NULL)
         return RC_ERROR;
-    free(*saved);
+    give_back(fmu, own);
     *saved = NULL;
     return RC_OK;
 }
@@ -145,7 +197,7 @@ rc_status rc_fmu_deserialise(rc_fmu *fmu, const void *bytes, size_t size, void *
                                             bytes_of(to) + fmu->own_size);
     if (status != RC_OK) {
         if (*saved == NULL)
-            free(to);
+            give_back(fmu, to);
         return rc_fmu_pass(fmu, status);
     }
     memcpy(bytes_of(to), from + HEAD, fmu->own_size);

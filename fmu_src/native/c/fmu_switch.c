@@ -44,21 +44,32 @@ static rc_status repeat(rc_fmu *fmu, double time, double part, double step)
     return rc_fmu_step_once(fmu, time, part);
 }
 
+/* To the start of the step and to its inputs, of which a repetition that failed may have left some
+ * half way. */
+static rc_status go_back(rc_fmu *fmu, rc_status status)
+{
+    (void)rc_restore(fmu->model, fmu->start);
+    return status;
+}
+
 rc_status rc_fmu_go_back_to_switch(rc_fmu *fmu, double time, double step, int *ended_early)
 {
     double before = 0.0, behind = step, tried = step;
     if (!has_switched(fmu))
         return RC_OK;
     for (int n = 0; n < MOST_BISECTIONS && behind - before > CLOSE_ENOUGH; ++n) {
-        tried = 0.5 * (before + behind);
+        tried = before + 0.5 * (behind - before);
         const rc_status status = repeat(fmu, time, tried, step);
         if (status != RC_OK)
-            return status;
+            return go_back(fmu, status);
         if (has_switched(fmu))
             behind = tried;
         else
             before = tried;
     }
+    const rc_status status = tried == behind ? RC_OK : repeat(fmu, time, behind, step);
+    if (status != RC_OK)
+        return go_back(fmu, status);
     *ended_early = behind < step;
-    return tried == behind ? RC_OK : repeat(fmu, time, behind, step);
+    return RC_OK;
 }

@@ -74,6 +74,22 @@ rc_status rc_enter_initialisation(rc_model *model, double start_time)
     return RC_OK;
 }
 
+/* Whether the state gives outputs that are numbers; all of them are worked out. */
+static int has_finite_outputs(rc_model *model)
+{
+    for (size_t g = 0; g < model->kind->kind_count; ++g) {
+        if (model->groups[g].causality != RC_OUTPUT)
+            continue;
+        double *outputs = model->outputs + model->slots[g];
+        model->kind->read(model, g, outputs);
+        model->known[g] = 1;
+        for (uint32_t i = 0; i < model->groups[g].count; ++i)
+            if (!isfinite(outputs[i]))
+                return 0;
+    }
+    return 1;
+}
+
 /* Works the initial state out if parameters or inputs have changed since the last time. */
 static rc_status ensure_started(rc_model *model)
 {
@@ -84,9 +100,15 @@ static rc_status ensure_started(rc_model *model)
     if (prepared != RC_OK)
         return prepared;
     const rc_status status = model->kind->start(model);
-    if (status == RC_OK)
-        model->head->started = 1;
-    return status;
+    if (status != RC_OK)
+        return status;
+    if (!has_finite_outputs(model)) {
+        memset(model->known, 0, model->kind->kind_count);
+        return rc_fail(model, RC_ERROR, "no finite initial state follows from these parameters and "
+                                        "inputs; look for one that is out of all proportion");
+    }
+    model->head->started = 1;
+    return RC_OK;
 }
 
 rc_status rc_exit_initialisation(rc_model *model)
@@ -116,9 +138,9 @@ rc_status rc_step(rc_model *model, double time, double step, rc_input_shape shap
         return rc_fail(model, RC_DISCARD,
                        "a step from %.17g s does not continue from %.17g s; restore the state of "
                        "that time first", time, model->head->time);
-    if (!(isfinite(step) && step > 0.0))
+    if (!(isfinite(time + step) && step > 0.0))
         return rc_fail(model, RC_DISCARD, "the step size is %g s; it must be a finite number "
-                                          "above zero", step);
+                                          "above zero, and so must be its end", step);
     model->stepped = 0; /* what derivatives need may be overwritten even if the step is refused */
     const rc_status status = model->kind->step(
         model, step, shape == RC_AS_PARAMETER ? model->linear : shape == RC_STRAIGHT);

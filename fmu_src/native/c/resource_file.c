@@ -87,7 +87,8 @@ static char *read_all(FILE *file, size_t *size)
     if (fseek(file, 0, SEEK_END) != 0)
         return NULL;
     const long length = ftell(file);
-    if (length < 0 || fseek(file, 0, SEEK_SET) != 0)
+    if (length < 0 || (size_t)length >= SIZE_MAX / 2 || /* a folder, perhaps */
+        fseek(file, 0, SEEK_SET) != 0)
         return NULL;
     char *data = malloc((size_t)length + 1);
     if (data == NULL)

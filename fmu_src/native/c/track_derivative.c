@@ -25,7 +25,7 @@ static rc_status differentiate(rc_model *model, const double *force_seed, double
     rc_prepare_operator(track, track->before, track->last_step, track->linear, present.position);
     if (!rc_apply_operator(track, &end, present.force) ||
         !rc_differentiate_operator(track, force_seed, &change))
-        return rc_fail(model, RC_ERROR, "track: the last step has no derivative");
+        return rc_fail(model, RC_DISCARD, "track: the last step has no derivative");
     observe_all(model, &change, changes);
     return RC_OK;
 }
@@ -40,11 +40,11 @@ static rc_status repeat(rc_model *model, const double *seed, double factor, doub
         track->moved[i] = present.position[i] + factor * seed[i];
         track->pressed[i] = present.force[i] + factor * seed[wheels + i];
         if (!rc_locate(&track->basis, track->moved[i], &track->points[i]))
-            return rc_refuse_position(model, track, RC_ERROR, track->moved[i]);
+            return rc_refuse_position(model, track, RC_DISCARD, track->moved[i]);
     }
     memcpy(track->after, track->before, rc_count_state(&track->basis) * sizeof(double));
     if (!rc_advance_track(track, track->after, track->last_step, track->moved, track->pressed))
-        return rc_fail(model, RC_ERROR, "track: the last step has no derivative");
+        return rc_fail(model, RC_DISCARD, "track: the last step has no derivative");
     const rc_track_state state = rc_view_state(&track->basis, track->after);
     observe_all(model, &state, outputs);
     return RC_OK;
@@ -71,7 +71,7 @@ rc_status rc_derive_track(rc_model *model, const double *seed, double *changes)
     memset(model->known, 0, model->kind->kind_count); /* the outputs' place is borrowed */
     if (repeat(model, seed, factor, changes) != RC_OK ||
         repeat(model, seed, -factor, model->outputs) != RC_OK)
-        return RC_ERROR;
+        return RC_DISCARD;
     for (size_t k = 0; k < model->output_count; ++k)
         changes[k] = (changes[k] - model->outputs[k]) / (2.0 * factor);
     return RC_OK;
