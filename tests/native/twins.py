@@ -39,11 +39,14 @@ ORDER = {
 """What differences are compared with where the values are smaller, as those of a track at rest."""
 
 
-def assert_alike(rows, *, relative=AGREEMENT):
-    """Every array differs from its twin by a fraction of its largest value at most."""
+def assert_alike(rows, *, relative=AGREEMENT, parts=1):
+    """Every array differs from its twin by a fraction of its largest value at most, in each part.
+
+    A step that the models divide into parts is as many steps to them.
+    """
     for name, expected, found in rows:
         assert np.isfinite(expected).all(), name
-        limit = relative * max(np.max(np.abs(expected)), ORDER.get(name, 0.0))
+        limit = parts * relative * max(np.max(np.abs(expected)), ORDER.get(name, 0.0))
         np.testing.assert_allclose(found, expected, rtol=0.0, atol=limit, err_msg=name)
 
 
