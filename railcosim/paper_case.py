@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 PACKAGE_NAMES: Mapping[ContactSide, str] = {
     "vehicle": "Passage.ssp",
-    "track": "PassageContactOnTrack.ssp",
+    "track": "contact_on_track/PassageContactOnTrack.ssp",
 }
-"""Files of the paper's case as a system of FMUs."""
+"""Files of the paper's case as a system; only one beside the FMUs, so that ``*.ssp`` names it."""
 
 
 def build_python(folder: Path, *, notify: Callable[[str], None]) -> list[Path]:

@@ -112,7 +112,8 @@ def test_the_build_script_writes_the_package_too(tmp_path):
     )
     names = [
         *("Track.fmu", "Vehicle.fmu", "Passage.ssp"),
-        *("TrackContact.fmu", "Masses.fmu", "PassageContactOnTrack.ssp"),
+        *("TrackContact.fmu", "Masses.fmu", "contact_on_track/PassageContactOnTrack.ssp"),
     ]
     assert done.stdout.split() == [str(tmp_path / name) for name in names]
-    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(names)
+    found = [path for path in tmp_path.rglob("*") if path.is_file()]
+    assert sorted(found) == sorted(tmp_path / name for name in names)
