@@ -63,18 +63,20 @@ void rc_serialise(const rc_model *model, const void *state, void *bytes)
     memcpy(to + 12, &checksum, 4);
 }
 
-/* Whether every Integer is one of 32 bits, as hosts get it: a checksum can be forged. */
-static int integers_fit(const rc_model *model, const unsigned char *state)
+/* Whether every Integer is one of 32 bits, as hosts get it, and every Boolean 0 or 1: a checksum
+ * can be forged. */
+static int whole_numbers_fit(const rc_model *model, const unsigned char *state)
 {
     const unsigned char *values = state + ((const unsigned char *)model->values - model->state);
     for (size_t g = 0; g < model->kind->kind_count; ++g) {
         const rc_group *group = &model->groups[g];
+        const int is_boolean = group->type == RC_BOOLEAN;
+        if ((group->type != RC_INTEGER && !is_boolean) || group->causality == RC_OUTPUT)
+            continue;
         for (size_t i = 0; i < group->count; ++i) {
             double value;
-            if (group->type != RC_INTEGER || group->causality == RC_OUTPUT)
-                break;
             memcpy(&value, values + (model->slots[g] + i) * sizeof value, sizeof value);
-            if (!(value >= INT32_MIN && value <= INT32_MAX))
+            if (!(value >= (is_boolean ? 0 : INT32_MIN) && value <= (is_boolean ? 1 : INT32_MAX)))
                 return 0;
         }
     }
@@ -101,7 +103,7 @@ rc_status rc_deserialise(rc_model *model, const void *bytes, size_t size, void *
                                         "of the same build only", model->kind->name);
     if (size != HEAD + model->state_size || said != model->state_size ||
         rc_checksum(from + CHECKED, size - CHECKED) != checksum ||
-        !integers_fit(model, from + HEAD))
+        !whole_numbers_fit(model, from + HEAD))
         return rc_fail(model, RC_ERROR,
                        "the serialised state is truncated or altered (%zu bytes, its checksum, "
                        "its size or a number is wrong)", size);
