@@ -9,7 +9,12 @@ from track_fmu.parameters import TrackParameters
 from .model_slave import LINEAR_INPUTS
 from .track_variables import position_inputs, track_outputs, track_parameters
 from .variables import Variable
-from .vehicle_variables import excitation_parameters, vehicle_parameters
+from .vehicle_variables import (
+    WheelOutput,
+    excitation_parameters,
+    vehicle_parameters,
+    wheel_outputs,
+)
 
 INPUT_TIME = replace(
     LINEAR_INPUTS,
@@ -62,7 +67,7 @@ def _displacement_inputs(wheels: int) -> list[Variable]:
 
 
 def _contact_outputs(wheels: int, positions: tuple[str, ...]) -> list[Variable]:
-    kinds: tuple[tuple[str, str, float, float | None, float | None, tuple[str, ...], str], ...] = (
+    kinds: tuple[WheelOutput, ...] = (
         ("contact_force", "N", 0.0, 0.0, 1e5, (),
          "Contact force of wheel {} on the rail, compression positive"),
         ("contact_force_ahead", "N", 0.0, 0.0, 1e5, (),
@@ -77,19 +82,4 @@ def _contact_outputs(wheels: int, positions: tuple[str, ...]) -> list[Variable]:
          ("What the displacement of wheel {} counts from, downwards positive: its displacement in "
           "static equilibrium less the one given there")),
     )  # fmt: skip
-    return [
-        Variable(
-            name=f"wheel[{i + 1}].{name}",
-            causality="output",
-            group=name,
-            index=i,
-            unit=unit,
-            start=kind,
-            minimum=minimum,
-            nominal=nominal,
-            description=description.format(i + 1),
-            initial_dependencies=tuple(known.format(i + 1) for known in dependencies),
-        )
-        for name, unit, kind, minimum, nominal, dependencies, description in kinds
-        for i in range(wheels)
-    ]
+    return wheel_outputs(kinds, wheels)

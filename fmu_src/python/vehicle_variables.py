@@ -6,6 +6,9 @@ from vehicle_fmu.parameters import FlatParameters, VehicleParameters
 
 from .variables import Variable
 
+WheelOutput = tuple[str, str, float, float | None, float | None, tuple[str, ...], str]
+"""Name, unit, value of its type, minimum, nominal value, initial dependencies, description."""
+
 # name, unit, description; the start values are those of the models' own parameters
 VEHICLE = (
     ("wheel_mass", "kg", "Mass moving with each wheel, half the unsprung mass of a wheelset"),
@@ -118,7 +121,7 @@ def _inputs(wheels: int) -> list[Variable]:
 
 def _outputs(wheels: int) -> list[Variable]:
     on_rail = ("wheel[{}].rail_displacement",)
-    kinds: tuple[tuple[str, str, float, float | None, float | None, tuple[str, ...], str], ...] = (
+    kinds: tuple[WheelOutput, ...] = (
         ("position", "m", 0.0, None, 1.0, (),
          "Track position of wheel {}"),
         ("contact_force", "N", 0.0, 0.0, 1e5, (),
@@ -132,6 +135,11 @@ def _outputs(wheels: int) -> list[Variable]:
         ("in_contact", "", False, None, None, (),
          "Whether wheel {} touches the rail"),
     )  # fmt: skip
+    return wheel_outputs(kinds, wheels)
+
+
+def wheel_outputs(kinds: tuple[WheelOutput, ...], wheels: int) -> list[Variable]:
+    """Outputs that every wheel has, kind by kind; {} stands for the number of the wheel."""
     return [
         Variable(
             name=f"wheel[{i + 1}].{name}",

@@ -249,7 +249,10 @@ def test_a_vehicle_that_holds_its_inputs_wants_the_force_ahead(open_fmu, pair):
 
 
 def test_many_instances_live_and_die_in_one_process(pair):
+    places = set()
     for _ in range(10):
         slave = Instance(pair.vehicle)
         slave.fmu.doStep(0.0, 1e-4)
+        places.add(slave.get("wheel[1].position"))
         slave.close()
+    assert len(places) == 1
