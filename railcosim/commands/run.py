@@ -11,7 +11,7 @@ import xarray as xr
 from rich.console import Console
 
 from ..builds import usual_build
-from ..figures import describe, draw_passage
+from ..figures.passage import describe, draw_passage
 from ..notes import notes
 from ..output import FIGURE_SUFFIXES, check_writable, write_dataset, write_figure
 from ..passage import run_passage

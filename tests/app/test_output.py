@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from railcosim.errors import InputError, RunError
-from railcosim.figures import draw_passage
+from railcosim.figures.passage import draw_passage
 from railcosim.output import (
     DATA_SUFFIXES,
     FIGURE_SUFFIXES,

@@ -7,24 +7,19 @@ from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
-from .contact_loss import contact_losses
-from .scenario_file import from_toml
+from ..contact_loss import contact_losses
+from ..scenario_file import from_toml
+from .style import BLUE, OTHERS, QUIET, tidy
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
 
-    from .scenario import Scenario
-    from .sections import Flat
+    from ..scenario import Scenario
+    from ..sections import Flat
 
 SPAN = (-0.5, 1.0)
 """Part of the run that is drawn of a single strike: the flat's wheel from the flat's centre [m]."""
-
-BLUE, QUIET = "#0072B2", "#767676"
-"""The flat's wheel, of Okabe & Ito's colours that colour-blind readers tell apart, and a grey."""
-
-OTHERS = ("#D55E00", "#009E73", "#CC79A7", "#E69F00")
-"""Their colours for the other wheels, in turn."""
 
 
 def draw_passage(passage: xr.Dataset) -> Figure:
@@ -52,12 +47,7 @@ def draw_passage(passage: xr.Dataset) -> Figure:
     _draw_moments(moment, drawn)
     for axes in (force, displacement, moment):
         axes.axvline(0.0, color=QUIET, linewidth=0.8, zorder=0)
-        axes.grid(color="0.9", linewidth=0.6)
-        axes.spines[["top", "right"]].set_visible(False)
-        axes.margins(x=0.0)
-        axes.legend(
-            frameon=False, fontsize="small", loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4
-        )
+        tidy(axes)
     moment.set_xlabel("distance of the flat's wheel from the flat's centre [m]")
     figure.suptitle(describe(scenario))
     return figure

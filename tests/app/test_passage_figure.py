@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from railcosim.figures import SPAN, describe, draw_passage
+from railcosim.figures.passage import SPAN, describe, draw_passage
 from railcosim.scenario import Scenario
 from railcosim.sections import Flat, Track, Vehicle
 

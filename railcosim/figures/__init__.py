@@ -1,0 +1,1 @@
+"""Figures of passages and of studies, one kind a file."""
