@@ -40,7 +40,7 @@ class Baseline:
     evidence : callable
         Returns a folder for what belongs to a failure.
     written : callable
-        Told of a baseline that was written.
+        Told of a baseline before it is written; refuses that of another test.
     """
 
     folder: Path
@@ -96,11 +96,11 @@ class Baseline:
             )
         old = regression.read_recording(path) if path.is_file() else None
         compared = None if old is None else regression.compare(new, old, tolerances)
-        if self.update and (old is None or compared is None or not compared.agrees):
+        if self.update and (compared is None or not compared.agrees or compared.extra):
             check_finite(new)
+            self.written(path)
             self.folder.mkdir(parents=True, exist_ok=True)
             write_baseline(new, path)
-            self.written(path)
             return None
         assert compared is not None
         assert old is not None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -49,8 +49,7 @@ class Polyline:
             Whether a sample holds until the next one, as it does for Booleans.
         """
         numbers = values.astype(float)
-        first = np.flatnonzero(np.diff(times, prepend=-np.inf) > 0.0)
-        last = np.append(first[1:], times.size) - 1
+        first, last = _groups(times)
         before, after = numbers[first], numbers[last]
         if held:
             before = np.concatenate([before[:1], after[:-1]])
@@ -86,8 +85,10 @@ class Polyline:
         return Polyline(times=times, before=before, after=after)
 
     def shifted(self, by: float) -> Polyline:
-        """Return the same signal later by a time [s]."""
-        return Polyline(times=self.times + by, before=self.before, after=self.after)
+        """Return the same signal later by a time [s]; times that are one after rounding join."""
+        times = self.times + by
+        first, last = _groups(times)
+        return Polyline(times=times[first], before=self.before[first], after=self.after[last])
 
     def extremes(self, times: NDArray[np.float64], half_width: float) -> Limits:
         """Return the smallest and the largest value close to every time.
@@ -116,9 +117,11 @@ class Polyline:
         values = np.concatenate([self.before, self.after])
         return float(values.min()), float(values.max())
 
-    def _inside(self, times: NDArray[np.float64], side: str) -> NDArray[np.float64]:
+    def _inside(
+        self, times: NDArray[np.float64], side: Literal["left", "right"]
+    ) -> NDArray[np.float64]:
         """Interpolate on the piece to the left or to the right of every time."""
-        found = np.searchsorted(self.times, times, side="left" if side == "left" else "right") - 1
+        found = np.searchsorted(self.times, times, side=side) - 1
         k = np.clip(found, 0, self.times.size - 2)
         weight = (times - self.times[k]) / (self.times[k + 1] - self.times[k])
         # at both ends of a piece exactly its sample
@@ -126,6 +129,12 @@ class Polyline:
         outer = self.before[0] if side == "left" else self.after[-1]
         edge = times == (self.times[0] if side == "left" else self.times[-1])
         return np.where(edge, outer, inside)
+
+
+def _groups(times: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the first and the last index of every time, of times that do not decrease."""
+    first = np.flatnonzero(np.diff(times, prepend=-np.inf) > 0.0)
+    return first, np.append(first[1:], times.size) - 1
 
 
 def _extreme(

@@ -107,7 +107,6 @@ def _read_csv(path: Path) -> Recording:
         header=None,
         skiprows=1,
         encoding="utf-8-sig",
-        float_precision="round_trip",
         low_memory=False,
     )
     if table.shape[1] < len(names):
