@@ -38,8 +38,9 @@ def compare(
     from .. import comparison as regression  # noqa: PLC0415 - see above
 
     with exit_codes():
-        if plot is not None and not plot.is_dir():
-            check_writable(plot, option="--plot", suffixes=FIGURE_SUFFIXES)
+        if plot is not None:
+            figure = plot / "signal.png" if plot.is_dir() else plot
+            check_writable(figure, option="--plot", suffixes=FIGURE_SUFFIXES)
         allowed = None if tolerances is None else regression.read_tolerances(tolerances)
         new, old = regression.read_recording(result), regression.read_recording(baseline)
         compared = regression.compare(new, old, allowed, signals=signals or ())

@@ -1,6 +1,7 @@
 """Regression: a result beside its baseline, signal by signal, within tolerances."""
 
-from .comparison import Comparison, SignalComparison, compare
+from .comparing import compare
+from .comparison import Comparison, SignalComparison
 from .measures import Measures
 from .overlays import write_overlays
 from .reading import Source, read_recording, record

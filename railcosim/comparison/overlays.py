@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from ..output import FIGURE_SUFFIXES, check_writable, write_figure
+from ..output import write_figure
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -38,8 +38,6 @@ def write_overlays(
 
     Raises
     ------
-    InputError
-        For a folder that cannot be written to.
     RunError
         Where a figure cannot be written.
     """
@@ -55,7 +53,6 @@ def write_overlays(
     else:
         parts = {place: differing} if differing else {}
     for path, signals in parts.items():
-        check_writable(path, option="--plot", suffixes=FIGURE_SUFFIXES)
         write_figure(draw_comparison(result, baseline, comparison, signals), path)
     return list(parts)
 

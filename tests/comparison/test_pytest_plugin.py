@@ -2,10 +2,16 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from railcosim.comparison import read_recording
+from railcosim.pytest_plugin import Baseline
+
+# hypothesis has a plugin that would be compiled anew in every pytest inside of this one
+OPTIONS = ("-p", "railcosim.pytest_plugin", "-p", "no:hypothesispytest")
 
 TEST = """
 import numpy as np
@@ -20,11 +26,26 @@ def test_train(baseline):
 """
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _loaded(tmp_path_factory):
+    """Load all that a check needs: a pytest inside of this one forgets what it loads itself."""
+    folder = tmp_path_factory.mktemp("loaded")
+    array = np.array([(0.0, 1.0), (1.0, 2.0)], dtype=[("time", float), ("x", float)])
+    other = array.copy()
+    other["x"] *= 2.0
+    held = Baseline(
+        folder=folder, name="x", update=True, evidence=lambda: folder, written=lambda _: None
+    )
+    held.check(array)
+    with pytest.raises(pytest.fail.Exception):
+        replace(held, update=False).check(other)
+
+
 @pytest.fixture
 def run(pytester):
     def run(*words, factor=1.0, more=""):
         pytester.makepyfile(test_train=TEST.format(factor=factor, more=more))
-        return pytester.runpytest_inprocess("-p", "railcosim.pytest_plugin", *words)
+        return pytester.runpytest_inprocess(*OPTIONS, *words)
 
     return run
 
@@ -114,8 +135,7 @@ def test_paths_and_datasets_are_results_and_tests_have_several_baselines(pyteste
             baseline.check(table, name="other-" + str(speed).replace("/", "-"))
         """
     )
-    options = ("-p", "railcosim.pytest_plugin")
-    written = pytester.runpytest_inprocess(*options, "--update-baselines")
+    written = pytester.runpytest_inprocess(*OPTIONS, "--update-baselines")
     written.assert_outcomes(passed=2)
     folder = pytester.path / "baselines"
     assert sorted(path.name for path in folder.iterdir()) == [
@@ -124,7 +144,7 @@ def test_paths_and_datasets_are_results_and_tests_have_several_baselines(pyteste
         "test_train_40.nc",
         "test_train_a_b.nc",
     ]
-    pytester.runpytest_inprocess(*options).assert_outcomes(passed=2)
+    pytester.runpytest_inprocess(*OPTIONS).assert_outcomes(passed=2)
 
 
 def test_two_tests_do_not_write_one_baseline(pytester):
@@ -133,7 +153,7 @@ def test_two_tests_do_not_write_one_baseline(pytester):
         table = pytester.path / f"{k}.csv"
         table.write_text(f"time,x\n0.0,1.0\n1.0,{k}.0\n", encoding="utf-8")
         pytester.makepyfile(**{f"test_{k}": text.format(str(table))})
-    ended = pytester.runpytest_inprocess("-p", "railcosim.pytest_plugin", "--update-baselines")
+    ended = pytester.runpytest_inprocess(*OPTIONS, "--update-baselines")
     ended.assert_outcomes(passed=1, failed=1)
     ended.stdout.fnmatch_lines(["*same.nc is the baseline of test_1.py::test_same, too*"])
 
