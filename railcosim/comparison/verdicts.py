@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 SHOWN = 20
 """Rows of the table: all that differ, and the nearest to their tolerance up to so many."""
 
+HEADINGS = ("NRMS\n[%]", "largest\n[%]", "at\n[s]", "of\ntube", "peak\n[%]", "shift\n[s]")
+"""Headings of the numbers, narrow enough to leave names room on a terminal of 80 characters."""
+
 WIDTH = 140
 """Characters in a line of a text that is no terminal's."""
 
@@ -46,12 +49,12 @@ def _signal_table(comparison: Comparison) -> Table:
     )
     table.add_column("signal", overflow="fold")
     table.add_column("verdict", no_wrap=True)
-    for heading in ("NRMS [%]", "largest [%]", "at [s]", "of tube", "peak [%]", "shift [s]"):
-        table.add_column(heading, justify="right", no_wrap=True)
+    for heading in HEADINGS:
+        table.add_column(escape(heading), justify="right", no_wrap=True)
     for signal in shown:
         table.add_row(*(escape(cell) for cell in _row(signal)))
     for name in comparison.missing:
-        table.add_row(escape(name), "MISSING", *[""] * 6)
+        table.add_row(escape(name), "MISSING", *[""] * len(HEADINGS))
     return table
 
 
@@ -59,7 +62,7 @@ def _row(signal: SignalComparison) -> list[str]:
     verdict = "agrees" if signal.agrees else "DIFFERS"
     measures = signal.measures
     if measures is None:
-        return [signal.name, verdict, *[""] * 6]
+        return [signal.name, verdict, *[""] * len(HEADINGS)]
     return [
         signal.name,
         verdict,

@@ -44,6 +44,7 @@ def test_what_differs_ends_with_1_and_says_which(call, files):
     assert ended.exit_code == 1
     assert ended.stderr.endswith("1 of 3 signals differ (force[1])\n")
     assert "force[1]: outside the tube at" in ended.stdout
+    assert ended.stdout.count("[s]") == 2  # brackets are no markup
 
 
 def test_json_is_one_object_with_every_number(call, files):
