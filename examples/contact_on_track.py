@@ -59,8 +59,8 @@ class Slave:
         shutil.rmtree(self.folder)
 
 
-def passage(track_path: str, masses_path: str) -> float:
-    """Let a bogie with a wheel flat pass; returns the largest contact force of wheel 1 [N]."""
+def passage(track_path: str, masses_path: str) -> list[tuple[float, ...]]:
+    """Let a bogie with a wheel flat pass; returns rows of time [s], contact forces 1 and 2 [N]."""
     motion = [f"wheel[{i}].{name}" for name in ("position", "displacement") for i in WHEELS]
     force = [f"wheel[{i}].contact_force" for i in WHEELS]
     track = Slave(track_path, start={"initial_speed": SPEED}, inputs=motion, outputs=force)
@@ -73,20 +73,21 @@ def passage(track_path: str, masses_path: str) -> float:
     track.fmu.exitInitializationMode()
     masses.fmu.exitInitializationMode()
 
-    largest = 0.0
+    rows = [(0.0, *track.read())]
     for k in range(round((STOP - START) / SPEED / STEP)):
         moved, pressed = masses.read(), track.read()
         track.write(moved)
         masses.write(pressed)
         track.fmu.doStep(k * STEP, STEP)
         masses.fmu.doStep(k * STEP, STEP)
-        largest = max(largest, track.read()[0])
+        rows.append(((k + 1) * STEP, *track.read()))
     track.close()
     masses.close()
-    return largest
+    return rows
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 3:
         sys.exit(f"usage: {sys.argv[0]} TRACK_CONTACT.fmu MASSES.fmu")
-    print(f"largest contact force: {passage(*sys.argv[1:3]) / 1e3:.1f} kN")
+    largest = max(row[1] for row in passage(*sys.argv[1:3]))
+    print(f"largest contact force: {largest / 1e3:.1f} kN")

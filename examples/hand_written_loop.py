@@ -56,8 +56,8 @@ class Slave:
         shutil.rmtree(self.folder)
 
 
-def passage(track_path: str, vehicle_path: str) -> float:
-    """Let a bogie with a wheel flat pass; returns the largest contact force of wheel 1 [N]."""
+def passage(track_path: str, vehicle_path: str) -> list[tuple[float, ...]]:
+    """Let a bogie with a wheel flat pass; returns rows of time [s], contact forces 1 and 2 [N]."""
     position, force, rail = (
         [f"wheel[{i}].{quantity}" for i in WHEELS]
         for quantity in ("position", "contact_force", "rail_displacement")
@@ -76,7 +76,7 @@ def passage(track_path: str, vehicle_path: str) -> float:
 
     now = before = vehicle.get(force)
     start = vehicle.get(position)
-    largest = 0.0
+    rows = [(0.0, *now)]
     for k in range(round((STOP - START) / SPEED / STEP)):
         ahead = [x + SPEED * STEP * (k + 1) for x in start]
         predicted = [max(2.0 * b - a, 0.0) for a, b in zip(before, now, strict=True)]
@@ -85,13 +85,14 @@ def passage(track_path: str, vehicle_path: str) -> float:
         vehicle.set(rail, track.get(rail))
         vehicle.fmu.doStep(k * STEP, STEP)
         before, now = now, vehicle.get(force)
-        largest = max(largest, now[0])
+        rows.append(((k + 1) * STEP, *now))
     track.close()
     vehicle.close()
-    return largest
+    return rows
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 3:
         sys.exit(f"usage: {sys.argv[0]} TRACK.fmu VEHICLE.fmu")
-    print(f"largest contact force: {passage(*sys.argv[1:3]) / 1e3:.1f} kN")
+    largest = max(row[1] for row in passage(*sys.argv[1:3]))
+    print(f"largest contact force: {largest / 1e3:.1f} kN")

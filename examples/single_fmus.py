@@ -11,6 +11,7 @@ import sys
 
 import numpy as np
 from fmpy import simulate_fmu
+from numpy.typing import NDArray
 
 SPEED = 40.0 / 3.6  # m/s
 START = 12.7  # m, leading wheel
@@ -18,8 +19,8 @@ STATIC_WHEEL_LOAD = 117_720.0  # N
 STEP, STOP = 2e-4, 0.1  # s
 
 
-def track_under_moving_forces(path: str) -> float:
-    """Two static wheel loads roll along the track; returns the largest rail displacement [m]."""
+def track_under_moving_forces(path: str) -> NDArray[np.void]:
+    """Two static wheel loads roll along the track; returns the rail displacement under wheel 1."""
     signals = np.array(
         [
             (time, START + SPEED * time, START - 1.8 + SPEED * time, *2 * [STATIC_WHEEL_LOAD])
@@ -36,7 +37,7 @@ def track_under_moving_forces(path: str) -> float:
             )
         ],
     )
-    result = simulate_fmu(
+    result: NDArray[np.void] = simulate_fmu(
         path,
         stop_time=STOP,
         step_size=STEP,
@@ -45,11 +46,11 @@ def track_under_moving_forces(path: str) -> float:
         input=signals,
         output=["wheel[1].rail_displacement"],
     )
-    return float(result["wheel[1].rail_displacement"].max())
+    return result
 
 
-def vehicle_on_prescribed_rail(path: str) -> float:
-    """The rail sinks 1 mm and comes back up in 50 ms; returns the largest contact force [N]."""
+def vehicle_on_prescribed_rail(path: str) -> NDArray[np.void]:
+    """The rail sinks 1 mm and comes back up in 50 ms; returns the contact force of wheel 1."""
     times = np.linspace(0.0, STOP, 501)
     sag = np.where(times < 0.05, 0.5e-3 * (1.0 - np.cos(2.0 * np.pi * times / 0.05)), 0.0)
     signals = np.array(
@@ -59,7 +60,7 @@ def vehicle_on_prescribed_rail(path: str) -> float:
             for name in ("time", "wheel[1].rail_displacement", "wheel[2].rail_displacement")
         ],
     )
-    result = simulate_fmu(
+    result: NDArray[np.void] = simulate_fmu(
         path,
         stop_time=STOP,
         step_size=STEP,
@@ -68,12 +69,14 @@ def vehicle_on_prescribed_rail(path: str) -> float:
         input=signals,
         output=["wheel[1].contact_force"],
     )
-    return float(result["wheel[1].contact_force"].max())
+    return result
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 3:
         sys.exit(f"usage: {sys.argv[0]} TRACK.fmu VEHICLE.fmu")
     track, vehicle = sys.argv[1:3]
-    print(f"rail displacement: {track_under_moving_forces(track) * 1e3:.3f} mm")
-    print(f"contact force: {vehicle_on_prescribed_rail(vehicle) / 1e3:.1f} kN")
+    displacement = track_under_moving_forces(track)["wheel[1].rail_displacement"]
+    force = vehicle_on_prescribed_rail(vehicle)["wheel[1].contact_force"]
+    print(f"rail displacement: {displacement.max() * 1e3:.3f} mm")
+    print(f"contact force: {force.max() / 1e3:.1f} kN")

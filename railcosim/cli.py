@@ -1,4 +1,4 @@
-"""The command line: `railcosim run`, `cosim`, `replay`, `build` and `check`."""
+"""The command line: `railcosim run`, `cosim`, `replay`, `build`, `check` and `compare`."""
 
 import signal
 import sys
@@ -9,6 +9,7 @@ import typer
 from . import __version__
 from .commands.build import build
 from .commands.check import check
+from .commands.compare import compare
 from .commands.cosim import cosim
 from .commands.endings import say
 from .commands.replay import replay
@@ -25,7 +26,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-for command in (run, cosim, build, replay, check):
+for command in (run, cosim, build, replay, check, compare):
     app.command()(command)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -20,7 +21,8 @@ class Column:
     Attributes
     ----------
     label : str
-        ``variable [unit]``, or ``variable[k] [unit]`` for the k-th wheel, sleeper or gauge.
+        ``variable [unit]``, or ``variable[k] [unit]`` for the k-th wheel, sleeper or gauge;
+        without the bracket where there is no unit.
     values : ndarray, shape (times,)
         The series.
     attributes : dict of str to str
@@ -52,15 +54,17 @@ def columns(passage: xr.Dataset) -> Iterator[Column]:
         if variable.dims == ("time",):
             yield _column(variable, str(name))
         elif variable.dims[:1] == ("time",):
-            dim = variable.dims[1]
-            for k in passage[dim].to_numpy():
-                yield _column(variable.sel({dim: k}), f"{name}[{k}]")
+            others = variable.dims[1:]
+            for place in product(*(range(variable.sizes[dim]) for dim in others)):
+                one = dict(zip(others, place, strict=True))
+                key = ",".join(str(passage[dim].to_numpy()[k]) for dim, k in one.items())
+                yield _column(variable.isel(one), f"{name}[{key}]")
 
 
 def _column(variable: xr.DataArray, name: str) -> Column:
     attributes: dict[str, Any] = variable.attrs
     return Column(
-        label=f"{name} [{attributes['units']}]",
+        label=f"{name} [{attributes['units']}]" if attributes.get("units") else name,
         values=variable.to_numpy(),
         attributes={key: str(value) for key, value in attributes.items()},
     )

@@ -12,6 +12,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 sys.path.insert(0, str(Path(__file__).parent / "compiled"))
 
 
+pytest_plugins = ["pytester", "railcosim.pytest_plugin"]
+
+
 @pytest.fixture(scope="session")
 def compiled_fmu(tmp_path_factory):
     """Return a function that gives the path of a model in a version, built once."""

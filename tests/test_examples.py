@@ -1,13 +1,21 @@
-"""Every example runs and gives its number."""
+"""Every example runs, gives its number, and the histories that it gave before."""
 
 import runpy
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from build_fmus import ensure_fmus
+from railcosim.builds import build_for
+from railcosim.cosim import run_system
+from railcosim.cosim_options import CosimOptions
+from railcosim.passage_package import ensure_package
+from railcosim.scenario import Scenario
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
+TOLERANCES = EXAMPLES / "baselines" / "tolerances.toml"
+SHORT = 0.4  # s; the flat meets the rail at 0.351 s
 
 
 @pytest.fixture(scope="module")
@@ -16,24 +24,54 @@ def paths(tmp_path_factory):
     return str(fmus.track), str(fmus.vehicle)
 
 
-def test_single_fmus(paths):
+@pytest.fixture
+def baseline_folder():
+    return EXAMPLES / "baselines"
+
+
+def coarse(rows, every):
+    """Every so manieth row as fmpy gives a result."""
+    names = ("time", "wheel[1].contact_force", "wheel[2].contact_force")
+    return np.array(rows, dtype=[(name, float) for name in names])[::every]
+
+
+def test_single_fmus(paths, baseline):
     example = runpy.run_path(str(EXAMPLES / "single_fmus.py"))
+    track = example["track_under_moving_forces"](paths[0])
     # 1.13 to 1.15 mm under static wheel loads, by the full finite element model
-    assert example["track_under_moving_forces"](paths[0]) == pytest.approx(1.148e-3, abs=2e-6)
+    assert track["wheel[1].rail_displacement"].max() == pytest.approx(1.148e-3, abs=2e-6)
+    vehicle = example["vehicle_on_prescribed_rail"](paths[1])
     # m a of the sag is 4.7 kN; what its sudden start sets off adds to the static load too
-    force = example["vehicle_on_prescribed_rail"](paths[1])
+    force = vehicle["wheel[1].contact_force"].max()
     assert 117.72e3 + 4.7e3 < force < 117.72e3 + 4 * 4.7e3
+    baseline.check(track, TOLERANCES, name="track_under_moving_forces")
+    baseline.check(vehicle, TOLERANCES, name="vehicle_on_prescribed_rail")
 
 
-def test_hand_written_loop(paths):
+def test_hand_written_loop(paths, baseline):
     """Within 0.2 % of the peak of the full finite element model, 234.31 kN."""
     example = runpy.run_path(str(EXAMPLES / "hand_written_loop.py"))
-    assert example["passage"](*paths) == pytest.approx(234.31e3, rel=2e-3)
+    rows = example["passage"](*paths)
+    assert max(row[1] for row in rows) == pytest.approx(234.31e3, rel=2e-3)
+    baseline.check(coarse(rows, 16), TOLERANCES, name="hand_written_loop")
 
 
-def test_contact_on_track(tmp_path):
+def test_contact_on_track(tmp_path, baseline):
     """The same, at four times the step."""
     fmus = ensure_fmus(tmp_path, contact="track")
     example = runpy.run_path(str(EXAMPLES / "contact_on_track.py"))
-    peak = example["passage"](str(fmus.track), str(fmus.vehicle))
-    assert peak == pytest.approx(234.31e3, rel=2e-3)
+    rows = example["passage"](str(fmus.track), str(fmus.vehicle))
+    assert max(row[1] for row in rows) == pytest.approx(234.31e3, rel=2e-3)
+    baseline.check(coarse(rows, 4), TOLERANCES, name="contact_on_track")
+
+
+def test_passage_as_a_system(tmp_path, baseline):
+    """Native FMUs, whose results are those of the Python ones, up to 50 ms after the strike."""
+    fmus = build_for(Scenario(), "native", directory=tmp_path)
+    package = tmp_path / "Passage.ssp"
+    ensure_package(Scenario(), fmus, package)
+    result = run_system(package, CosimOptions(stop_time=SHORT))
+    even = result[["vehicle.wheel[1].contact_force", "track.sleeper[28].displacement"]].interp(
+        time=np.linspace(0.0, SHORT, 1001)
+    )
+    baseline.check(even.drop_attrs(deep=False), TOLERANCES, name="passage_as_a_system")

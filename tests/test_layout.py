@@ -25,7 +25,9 @@ MAY_IMPORT = {
         "fmpy",
         "matplotlib",
         "numpy",
+        "pandas",
         "pyarrow",
+        "pytest",
         "rich",
         "scipy",
         "threadpoolctl",
@@ -127,7 +129,8 @@ def test_a_package_imports_itself_by_relative_imports(part):
 
 def test_every_library_in_use_is_declared_and_every_declared_one_is_used():
     project = project_file()["project"]
-    extra = project["optional-dependencies"]["parquet"]
+    extras = project["optional-dependencies"]
+    extra = [*extras["parquet"], *extras["pytest"]]
     names = [re.split(r"[\[<>=! ]", line)[0] for line in [*project["dependencies"], *extra]]
     behind_xarray = {"h5netcdf", "h5py"}  # which writes its files through them
     used = {item.top for part in OURS for item in foreign(part)} - OURS
