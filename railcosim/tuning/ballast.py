@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..load_displacement import LOADS, SecantLaw, equidistant_loads, fit_polynomial
-from .estimate import Estimate, covariance, half_width
+from .estimate import Estimate, covariance, half_width, rounded
 
 if TYPE_CHECKING:
     from track_fmu.beam_element import FloatArray
@@ -203,7 +203,7 @@ def _estimates(
             Estimate(
                 name=name,
                 unit=unit,
-                value=float(value),
+                value=rounded(float(value)),
                 low=float(value) - width,
                 high=float(value) + width,
             )

@@ -39,6 +39,11 @@ class Estimate:
         return {key: item for key, item in asdict(self).items() if key != "name"}
 
 
+def rounded(value: float) -> float:
+    """Round to six digits, two more than any measurement has, so that files stay readable."""
+    return float(f"{value:.6g}")
+
+
 def covariance(jacobian: FloatArray, residual: FloatArray) -> FloatArray:
     """Covariance of least-squares parameters, from the scatter that is left.
 

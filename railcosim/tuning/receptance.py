@@ -12,7 +12,7 @@ from scipy.optimize import least_squares
 from ..errors import InputError, RunError
 from ..receptance.measured import log_residual
 from ..track_data import track_parameters
-from .estimate import Estimate, covariance, half_width
+from .estimate import Estimate, covariance, half_width, rounded
 from .support_receptance import SUPPORT_PARAMETERS, SupportReceptance
 
 if TYPE_CHECKING:
@@ -228,7 +228,7 @@ def _estimates(
         Estimate(
             name=name,
             unit="N/m" if name.endswith("stiffness") else "N s/m",
-            value=float(value),
+            value=rounded(float(value)),
             low=float(value * np.exp(-width)),
             high=float(value * np.exp(width)),
         )

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from rich.table import Table
+from rich.text import Text
 
 from ..receptance.measured import DECIBEL
 
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
     from .ballast import TunedBallast
     from .estimate import Estimate
     from .receptance import TunedTrack
+
+SHOWN_AS = {"N/m": (1e-6, "MN/m"), "N s/m": (1e-3, "kN s/m")}
+"""Units in which engineers read what is kept in SI units."""
 
 
 def receptance_fit_numbers(tuned: TunedTrack, start: Track) -> dict[str, Any]:
@@ -42,51 +46,51 @@ def ballast_fit_numbers(tuned: TunedBallast, start: Track) -> dict[str, Any]:
     }
 
 
-def fit_table(numbers: dict[str, Any], rows: Iterable[tuple[str, str]], title: str) -> Table:
+def fit_table(numbers: dict[str, Any], rows: Iterable[tuple[str, str, str]], title: str) -> Table:
     """Lay fitted parameters out, and below them what else there is to say.
 
     Parameters
     ----------
     numbers : dict
         As `receptance_fit_numbers` or `ballast_fit_numbers` return them.
-    rows : iterable of (str, str)
-        What else, as name and value.
+    rows : iterable of (str, str, str)
+        What else, as name, value and unit.
     title : str
         What was fitted to what.
     """
-    table = Table(title=title)
+    table = Table(title=Text(title))  # the name of a file is no markup
     table.add_column("")
     for heading in ("start", "fitted", "from", "to"):
         table.add_column(heading, justify="right")
     table.add_column("unit")
     for name, item in numbers["parameters"].items():
-        values = (f"{item[key]:.4g}" for key in ("start", "value", "low", "high"))
-        table.add_row(name, *values, item["unit"])
+        factor, unit = SHOWN_AS.get(item["unit"], (1.0, item["unit"]))
+        values = (f"{factor * item[key]:.4g}" for key in ("start", "value", "low", "high"))
+        table.add_row(name, *values, unit)
     table.add_section()
-    for name, value in rows:
-        table.add_row(name, "", value)
+    for name, value, unit in rows:
+        table.add_row(name, "", value, "", "", unit)
     return table
 
 
-def receptance_rows(numbers: dict[str, Any]) -> list[tuple[str, str]]:
+def receptance_rows(numbers: dict[str, Any]) -> list[tuple[str, str, str]]:
     """Say how good a fit to a receptance is."""
     rows = [
-        ("measured frequencies", f"{numbers['points']}"),
-        ("amplitude, r.m.s. [dB]", f"{numbers['amplitude_deviation']:.2f}"),
+        ("measured frequencies", f"{numbers['points']}", ""),
+        ("amplitude, r.m.s.", f"{numbers['amplitude_deviation']:.2f}", "dB"),
     ]
     if numbers["phase_deviation"] is not None:
-        rows.append(("phase, r.m.s. [deg]", f"{numbers['phase_deviation']:.1f}"))
+        rows.append(("phase, r.m.s.", f"{numbers['phase_deviation']:.1f}", "deg"))
     return rows
 
 
-def ballast_rows(numbers: dict[str, Any]) -> list[tuple[str, str]]:
+def ballast_rows(numbers: dict[str, Any]) -> list[tuple[str, str, str]]:
     """Say what a fit to secant stiffness went through."""
-    slope = numbers["slope"]
     return [
-        ("measured points", f"{numbers['points']}"),
-        ("slope [1/m]", f"{slope['value']:.4g} ({slope['low']:.4g} to {slope['high']:.4g})"),
-        ("scatter, r.m.s. [MN/m]", f"{1e-6 * numbers['scatter']:.2f}"),
-        ("polynomial from line [kN]", f"{1e-3 * numbers['polynomial_deviation']:.2f}"),
+        ("measured points", f"{numbers['points']}", ""),
+        ("slope of the line", f"{numbers['slope']['value']:.4g}", "1/m"),
+        ("scatter, r.m.s.", f"{1e-6 * numbers['scatter']:.2f}", "MN/m"),
+        ("polynomial from line", f"{1e-3 * numbers['polynomial_deviation']:.2f}", "kN"),
     ]
 
 
