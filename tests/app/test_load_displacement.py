@@ -36,7 +36,7 @@ def test_the_law_and_its_inverse():
 def test_the_papers_coefficients_come_from_ten_loads_up_to_60_kn():
     """The paper names neither its loads nor its weights; these give what it prints to two digits
     in alpha and to 0.6 and 1.6 % in beta and delta. Five kilonewtons more or less of the largest
-    load move all three by 9 % or more, so it must have been about this range.
+    load move all three by 10 % or more, so it must have been about this range.
     """
     found = fit_polynomial(LAW, equidistant_loads(60e3, 10))
     assert found.alpha == pytest.approx(0.37e12, abs=0.005e12)
@@ -45,7 +45,7 @@ def test_the_papers_coefficients_come_from_ten_loads_up_to_60_kn():
     for largest in (55e3, 65e3):
         other = fit_polynomial(LAW, equidistant_loads(largest, 10))
         for name in ("alpha", "beta", "delta"):
-            assert abs(getattr(other, name) / getattr(PAPER, name) - 1.0) > 0.09
+            assert abs(getattr(other, name) / getattr(PAPER, name) - 1.0) > 0.10
 
 
 def test_the_two_polynomials_differ_by_what_rounding_does():

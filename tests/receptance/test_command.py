@@ -106,6 +106,31 @@ def test_wrong_input_ends_with_2_and_one_sentence(call, tmp_path, arguments, par
     assert part in line
 
 
+@pytest.mark.parametrize(
+    ("method", "key"),
+    [
+        ("direct", "pad_stiffness=1e308"),
+        ("modal", "pad_stiffness=1e308"),
+        ("modal", "mass_per_length=1e300"),
+    ],
+)
+def test_parameters_beyond_all_bounds_end_with_1_and_one_sentence(call, method, key):
+    result = call("--method", method, "--set", f"track.{key}", *FEW)
+    assert (result.exit_code, result.stdout) == (1, "")
+    (line,) = result.stderr.splitlines()
+    assert "[track]" in line
+
+
+def test_the_smallest_track_has_a_receptance(call):
+    """Two elements, three degrees of freedom, fewer than the band is wide."""
+    size = ("track.bays=2", "track.elements_per_bay=1", "flat.position=0.6")
+    run = ("run.approach=0.3", "run.departure=0.2", "vehicle.axle_base=0.1")
+    sets = [word for key in (*size, *run) for word in ("--set", key)]
+    result = call("--json", *sets, *FEW)
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert json.loads(result.stdout)["modal_deviation"]["largest"] < 1e-9
+
+
 def test_the_figure_shows_curves_resonances_and_measured_points():
     place = Place(position=16.575)
     study = ReceptanceStudy(scenario=Scenario(), load=place, response=place)
