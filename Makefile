@@ -7,6 +7,7 @@
 #   make hosts    other co-simulation tools, into .venv-hosts (`make test` and `make bench` do it, too)
 #   make test-hosts  the passage in all of them; fails if one is missing
 #   make fmus     the FMUs, into dist/
+#   make docs     the documentation, into site/
 # PYTHON=/path/to/python3 chooses the interpreter that makes .venv.
 
 PYTHON ?= python3
@@ -20,7 +21,7 @@ HOSTS_NEEDED := benchmarks/host_tools/scripts/requirements.txt
 # The matrices are small: BLAS threads cost more than they bring, most of all beside `pytest -n`.
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: run test check fuzz bench hosts try-hosts test-hosts fmus lint
+.PHONY: run test check fuzz bench hosts try-hosts test-hosts fmus docs lint
 .DELETE_ON_ERROR:
 
 run: $(INSTALLED)
@@ -55,6 +56,10 @@ test-hosts: $(INSTALLED) hosts
 	RAILCOSIM_HOSTS=required $(BIN)/python -m pytest -m host tests/hosts
 
 hosts: $(HOSTS)/installed-requirements.txt
+
+docs: $(INSTALLED)
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet
+	@echo "written: site/index.html"
 
 fmus: $(INSTALLED)
 	$(BIN)/railcosim build

@@ -32,6 +32,7 @@ MAY_IMPORT = {
         "typer",
         "xarray",
     },
+    "docs": {"build_fmus", "fmu_src", "latex2mathml", "mkdocs"},
     "examples": {"fmpy", "matplotlib", "numpy", "build_fmus"},
 }
 """Who may import what besides the standard library and itself."""

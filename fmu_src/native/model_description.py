@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
+from itertools import groupby
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from fmu_src.python.model_description import limits, model_structure, unit_definitions
@@ -21,6 +23,10 @@ CATEGORIES = {
     "logStatusError": "Calls and values that are refused",
     "logStatusWarning": "What is doubtful about steps that are made",
 }
+INDEX = re.compile(r"\[\d+\]")
+COUNTED = re.compile(r"\b(wheel|sleeper|gauge) \d+")
+"""Where a name, and where a description, says which of several variables it is."""
+
 FMI2_TYPES = {bool: "Boolean", int: "Integer", float: "Real", str: "String"}
 FMI3_TYPES = {bool: "Boolean", int: "Int32", float: "Float64", str: "String"}
 
@@ -75,7 +81,8 @@ def describe_fmi2(model: NativeModel, *, token: str, sources: Sequence[str]) -> 
 def describe_fmi3(model: NativeModel, *, token: str) -> bytes:
     """Model description of FMI 3.0; see `describe_fmi2`.
 
-    Variables stay scalar: their names are what users connect, in both versions.
+    What users connect is scalar and has the same names in both versions. Besides, arrays show all
+    wheels, sleepers or gauges at once, to be read only.
     """
     root = Element(
         "fmiModelDescription",
@@ -95,6 +102,7 @@ def describe_fmi3(model: NativeModel, *, token: str) -> bytes:
             "canHandleVariableCommunicationStepSize": "true",
             "maxOutputDerivativeOrder": "1",
             "mightReturnEarlyFromDoStep": _text(model.switches),
+            "providesIntermediateUpdate": "true",
         },
     )
     _add_common(root, model)
@@ -121,8 +129,37 @@ def describe_fmi3(model: NativeModel, *, token: str) -> bytes:
             "description": "Time",
         },
     )
+    _add_arrays(variables, model.variables)
     _add_structure(root, model.variables)
     return to_bytes(root)
+
+
+def _add_arrays(element: Element, variables: Sequence[Variable]) -> None:
+    """Arrays of inputs and outputs that differ by an index; time and all variables come before."""
+    exchanged = [
+        (place, variable)
+        for place, variable in enumerate(variables)
+        if variable.causality != "parameter" and isinstance(variable.start, float)
+    ]
+    for name, group in groupby(exchanged, key=lambda item: INDEX.sub("", item[1].name)):
+        members = list(group)
+        place, first = members[0]
+        if name == first.name:
+            continue
+        array = SubElement(
+            element,
+            "Float64",
+            {
+                "name": name,
+                "valueReference": str(len(variables) + 1 + place),
+                "description": COUNTED.sub(r"every \1", first.description),
+                "causality": "local",
+                "variability": "continuous",
+                "initial": "calculated",
+                "unit": first.unit,
+            },
+        )
+        SubElement(array, "Dimension", {"start": str(len(members))})
 
 
 def to_bytes(root: Element) -> bytes:

@@ -12,7 +12,7 @@ from fmpy.fmi2 import (
     fmi2CallbackLoggerTYPE,
     fmi2StepFinishedTYPE,
 )
-from fmpy.fmi3 import fmi3LogMessageCallback
+from fmpy.fmi3 import fmi3IntermediateUpdateCallback, fmi3LogMessageCallback
 
 OK, WARNING, DISCARD, ERROR = range(4)
 
@@ -24,7 +24,9 @@ def references(numbers):
 class Calls:
     """What both versions have in common; functions are called by their names without prefix."""
 
-    def __init__(self, folder, *, logging=True, early_return=False, build=None, resources=None):
+    def __init__(
+        self, folder, *, logging=True, early_return=False, build=None, resources=None, update=None
+    ):
         self.folder = Path(folder)
         self.description = fmpy.read_model_description(str(folder))
         self.version = 2 if self.description.fmiVersion == "2.0" else 3
@@ -35,6 +37,7 @@ class Calls:
         self.messages = []
         token = self.token if build is None else build
         resources = self.folder / "resources" if resources is None else resources
+        self.update = fmi3IntermediateUpdateCallback(update) if update else None
         make = self._instantiate_2 if self.version == 2 else self._instantiate_3
         self.handle = make(token.encode(), Path(resources), logging, early_return)
 
@@ -76,7 +79,7 @@ class Calls:
             c_size_t(0),
             None,
             self.callback,
-            None,
+            self.update,
         )
 
     def function(self, name, result=c_int):

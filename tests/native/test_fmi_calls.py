@@ -87,7 +87,41 @@ def test_counts_that_do_not_match(fmi):
     values = (c_double * 2)()
     numbers = references([19, 20])
     assert instance.call("GetFloat64", numbers, c_size_t(2), values, c_size_t(1)) == ERROR
-    assert instance.message == "fmi3GetFloat64 was called with 1 values for 2 variables"
+    assert instance.message == "fmi3GetFloat64 was called with 1 values in place of 2"
+
+
+@pytest.mark.parametrize("model", ["track", "vehicle", "track_contact", "masses"])
+def test_arrays_of_fmi_3_show_the_scalars_of_all_wheels_and_sleepers(fmi, model):
+    instance = fmi(3, model).start()
+    instance.must(instance.step(0.0, 1e-4)[0])
+    arrays = [v for v in instance.description.modelVariables if v.dimensions]
+    assert {v.name for v in arrays} >= {"wheel.position", "wheel.contact_force"}
+    for array in arrays:
+        head, _, tail = array.name.partition(".")
+        size = int(array.dimensions[0].start)
+        values = (c_double * (size + 1))()
+        number = references([array.valueReference, instance.number["time"]])
+        count = c_size_t(size + 1)
+        instance.must(instance.call("GetFloat64", number, c_size_t(2), values, count))
+        assert list(values)[:-1] == instance.get(*(f"{head}[{k + 1}].{tail}" for k in range(size)))
+        assert values[size] == 1e-4
+        assert f"{head}[{size + 1}].{tail}" not in instance.number
+        assert instance.put(array.name, 1.0) == ERROR
+
+
+def test_the_host_is_told_of_the_end_of_every_step_in_fmi_3(fmi):
+    told = []
+
+    def update(_, time, may_set, may_get, finished, may_leave, *_rest):
+        told.append((time, instance.get("wheel[1].contact_force")[0]))
+        assert (may_set, may_get, finished, may_leave) == (False, True, True, False)
+
+    instance = fmi(3, "vehicle", update=update).start()
+    for k in range(3):
+        instance.must(instance.step(k * 1e-4, 1e-4)[0])
+        assert told[k] == (pytest.approx((k + 1) * 1e-4), instance.get("wheel[1].contact_force")[0])
+    assert instance.step(3e-4, -1.0)[0] == DISCARD
+    assert len(told) == 3
 
 
 @both_versions

@@ -43,7 +43,7 @@ def described(path):
             variable.nominal and float(variable.nominal),
         )
         for variable in fmpy.read_model_description(path).modelVariables
-        if variable.causality != "independent"
+        if variable.causality != "independent" and not variable.dimensions
     }
 
 

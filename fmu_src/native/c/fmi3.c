@@ -50,8 +50,8 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                                          fmi3LogMessageCallback logger,
                                          fmi3IntermediateUpdateCallback update)
 {
-    /* No event mode and no intermediate update, as the model description says. */
-    (void)visible, (void)event_mode, (void)intermediate, (void)count, (void)update;
+    /* No event mode; every variable can be had in an update, named before or not. */
+    (void)visible, (void)event_mode, (void)intermediate, (void)count;
     rc_fmu *fmu = rc_fmu_create(&(rc_fmu_request){.name = name,
                                                   .token = token,
                                                   .folder = folder,
@@ -60,7 +60,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                                                   .environment = environment,
                                                   .logging = logging});
     if (fmu != NULL)
-        fmu->early_return = early_return;
+        fmu->early_return = early_return, fmu->update = (void (*)(void))update;
     return fmu;
 }
 
@@ -107,6 +107,16 @@ fmi3Status fmi3Reset(fmi3Instance instance)
     return fmi3OK;
 }
 
+/* Shows the host the values at the end of what was stepped, before fmi3DoStep returns. */
+static void update_host(const rc_fmu *fmu)
+{
+    const fmi3IntermediateUpdateCallback update = (fmi3IntermediateUpdateCallback)fmu->update;
+    fmi3Boolean leave = false; /* nothing is left to return from */
+    fmi3Float64 until = fmu->head->reached;
+    if (update != NULL)
+        update(fmu->environment, fmu->head->reached, false, true, true, false, &leave, &until);
+}
+
 fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step,
                       fmi3Boolean no_way_back, fmi3Boolean *needs_event_mode,
                       fmi3Boolean *terminate, fmi3Boolean *returned_early, fmi3Float64 *reached)
@@ -119,6 +129,8 @@ fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 time, fmi3Float64 step,
     (void)no_way_back;
     int ended_early;
     const rc_status status = rc_fmu_step(fmu, time, step, &ended_early);
+    if (status == RC_OK)
+        update_host(fmu);
     *needs_event_mode = *terminate = false;
     *returned_early = ended_early;
     *reached = fmu->head->reached;

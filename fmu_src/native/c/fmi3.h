@@ -24,12 +24,12 @@ static inline fmi3Status rc_fmi3_status(rc_status status)
             return fmi3Error;                                           \
     } while (0)
 
-/* Two counts that must be the same, because all variables are scalar. */
+/* Two counts that must be the same: of the values that the variables have, and of those given. */
 #define MATCH(one, other)                                               \
     do {                                                                \
         if ((one) != (other))                                           \
             return rc_fmi3_status(rc_fmu_refuse(                        \
-                fmu, RC_ERROR, "%s was called with %zu values for %zu variables", __func__, \
+                fmu, RC_ERROR, "%s was called with %zu values in place of %zu", __func__, \
                 (size_t)(other), (size_t)(one)));                       \
     } while (0)
 

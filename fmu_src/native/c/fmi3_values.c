@@ -1,4 +1,6 @@
 /* FMI 3.0: values of variables, saved states. */
+#include <string.h>
+
 #include "fmi3.h"
 
 #define MAY_GET RC_FMU_ANY
@@ -10,18 +12,41 @@
     NEED(n, values);                                                    \
     MATCH(n, n_values)
 
-/* Values of which some are that of time, which follows the variables of the model. */
-static rc_status get_with_time(rc_fmu *fmu, const fmi3ValueReference vr[], size_t n,
-                               fmi3Float64 values[])
+/* The variables of the model are followed by time, and this by arrays: what is `offset` behind time
+ * shows all Real inputs or outputs whose names differ from that of variable `offset - 1` by an
+ * index only, which is their first. NULL: there is no such array. */
+static const rc_group *array_at(const rc_fmu *fmu, fmi3ValueReference reference)
 {
     const uint32_t time = rc_variable_count(fmu->model);
+    if (reference <= time)
+        return NULL;
+    const rc_group *group = rc_group_of(fmu->model, reference - time - 1);
+    const int shown = group != NULL && group->type == RC_REAL && strchr(group->name, '#') != NULL &&
+                      (group->causality == RC_INPUT || group->causality == RC_OUTPUT) &&
+                      group->first == reference - time - 1;
+    return shown ? group : NULL;
+}
+
+static rc_status get_one(rc_fmu *fmu, fmi3ValueReference reference, fmi3Float64 *value)
+{
+    if (reference != rc_variable_count(fmu->model))
+        return rc_get(fmu->model, RC_REAL, &reference, 1, value);
+    *value = rc_fmu_present_phase(fmu) == RC_FMU_CREATED ? fmu->head->start_time
+                                                         : rc_time(fmu->model);
+    return RC_OK;
+}
+
+/* Values of which some are that of time or arrays. */
+static rc_status get_with_arrays(rc_fmu *fmu, const fmi3ValueReference vr[], size_t n,
+                                 fmi3Float64 values[])
+{
     rc_status status = RC_OK;
     for (size_t i = 0; i < n && status == RC_OK; ++i) {
-        if (vr[i] == time)
-            values[i] = rc_fmu_present_phase(fmu) == RC_FMU_CREATED ? fmu->head->start_time
-                                                                    : rc_time(fmu->model);
-        else
-            status = rc_get(fmu->model, RC_REAL, &vr[i], 1, &values[i]);
+        const rc_group *array = array_at(fmu, vr[i]);
+        if (array == NULL)
+            status = get_one(fmu, vr[i], values++);
+        for (uint32_t k = 0; array != NULL && k < array->count && status == RC_OK; ++k)
+            status = get_one(fmu, array->first + k, values++);
     }
     return status;
 }
@@ -29,11 +54,19 @@ static rc_status get_with_time(rc_fmu *fmu, const fmi3ValueReference vr[], size_
 fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,
                           fmi3Float64 values[], size_t n_values)
 {
-    CHECK(MAY_GET);
-    for (size_t i = 0; i < n; ++i)
-        if (vr[i] == rc_variable_count(fmu->model))
-            return rc_fmi3_status(rc_fmu_pass(fmu, get_with_time(fmu, vr, n, values)));
-    return rc_fmi3_status(rc_fmu_pass(fmu, rc_get(fmu->model, RC_REAL, vr, n, values)));
+    ENTER(instance, MAY_GET);
+    NEED(n, vr);
+    NEED(n, values);
+    size_t size = 0;
+    int plain = 1;
+    for (size_t i = 0; i < n; ++i) {
+        const rc_group *array = array_at(fmu, vr[i]);
+        size += array == NULL ? 1 : array->count;
+        plain = plain && vr[i] < rc_variable_count(fmu->model);
+    }
+    MATCH(size, n_values);
+    return rc_fmi3_status(rc_fmu_pass(fmu, plain ? rc_get(fmu->model, RC_REAL, vr, n, values)
+                                                 : get_with_arrays(fmu, vr, n, values)));
 }
 
 fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference vr[], size_t n,

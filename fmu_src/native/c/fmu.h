@@ -50,6 +50,7 @@ struct rc_fmu {
     char *name;
     rc_fmu_log log;
     void (*logger)(void); /* the host's; cast back by `log` */
+    void (*update)(void); /* of the host, NULL without: told of the end of every step (FMI 3.0) */
     void *environment;
     unsigned categories;
     int early_return; /* whether a step may end at a switch of contact */
