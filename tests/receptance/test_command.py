@@ -106,16 +106,9 @@ def test_wrong_input_ends_with_2_and_one_sentence(call, tmp_path, arguments, par
     assert part in line
 
 
-@pytest.mark.parametrize(
-    ("method", "key"),
-    [
-        ("direct", "pad_stiffness=1e308"),
-        ("modal", "pad_stiffness=1e308"),
-        ("modal", "mass_per_length=1e300"),
-    ],
-)
-def test_parameters_beyond_all_bounds_end_with_1_and_one_sentence(call, method, key):
-    result = call("--method", method, "--set", f"track.{key}", *FEW)
+@pytest.mark.parametrize("method", ["direct", "modal"])
+def test_parameters_beyond_all_bounds_end_with_1_and_one_sentence(call, method):
+    result = call("--method", method, "--set", "track.pad_stiffness=1e308", *FEW)
     assert (result.exit_code, result.stdout) == (1, "")
     (line,) = result.stderr.splitlines()
     assert "[track]" in line
