@@ -1,4 +1,4 @@
-"""The command line: `railcosim run`, `cosim`, `replay`, `build`, `check` and `compare`."""
+"""The command line: `railcosim run`, `cosim`, `receptance` and the other commands."""
 
 import signal
 import sys
@@ -12,8 +12,11 @@ from .commands.check import check
 from .commands.compare import compare
 from .commands.cosim import cosim
 from .commands.endings import say
+from .commands.load_displacement import load_displacement
+from .commands.receptance import receptance
 from .commands.replay import replay
 from .commands.run import run
+from .commands.tune import tune
 
 USAGE_ERROR: Any = typer.BadParameter.__mro__[1]
 """What typer raises for a wrong command line; newer versions bring a click of their own."""
@@ -26,8 +29,9 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-for command in (run, cosim, build, replay, check, compare):
+for command in (run, cosim, build, replay, check, compare, receptance, load_displacement):
     app.command()(command)
+app.add_typer(tune, name="tune")
 
 
 def main() -> None:

@@ -1,4 +1,4 @@
-"""The time series of a result as plain columns."""
+"""The series of a result, over time or over what it is about, as plain columns."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Column:
-    """One time series.
+    """One series.
 
     Attributes
     ----------
     label : str
         ``variable [unit]``, or ``variable[k] [unit]`` for the k-th wheel, sleeper or gauge;
         without the bracket where there is no unit.
-    values : ndarray, shape (times,)
+    values : ndarray, shape (rows,)
         The series.
     attributes : dict of str to str
         Units, long name and sign.
@@ -35,25 +35,26 @@ class Column:
 
 
 def columns(passage: xr.Dataset) -> Iterator[Column]:
-    """Yield every series over time, the time itself first.
+    """Yield every series over time, the time itself first; without time, over the first dimension.
 
     Parameters
     ----------
     passage : xarray.Dataset
-        Result of a passage or of another co-simulation.
+        Result of a passage, of another co-simulation, or of a study over frequency and the like.
 
     Yields
     ------
     Column
         In the order of the dataset's variables.
     """
-    over_time = [name for name, axis in passage.coords.items() if axis.dims == ("time",)]
-    names = dict.fromkeys(["time", *over_time, *passage.data_vars])
+    rows = "time" if "time" in passage.dims else next(iter(passage.dims))
+    along = [name for name, axis in passage.coords.items() if axis.dims == (rows,)]
+    names = dict.fromkeys([rows, *along, *passage.data_vars])
     for name in names:
         variable = passage[name]
-        if variable.dims == ("time",):
+        if variable.dims == (rows,):
             yield _column(variable, str(name))
-        elif variable.dims[:1] == ("time",):
+        elif variable.dims[:1] == (rows,):
             others = variable.dims[1:]
             for place in product(*(range(variable.sizes[dim]) for dim in others)):
                 one = dict(zip(others, place, strict=True))
