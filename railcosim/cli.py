@@ -1,4 +1,4 @@
-"""The command line: `railcosim run`, `cosim`, `replay`, `build` and `check`."""
+"""The command line: `railcosim run`, `cosim`, `report`, `replay`, `build` and `check`."""
 
 import signal
 import sys
@@ -12,6 +12,7 @@ from .commands.check import check
 from .commands.cosim import cosim
 from .commands.endings import say
 from .commands.replay import replay
+from .commands.report import report
 from .commands.run import run
 
 USAGE_ERROR: Any = typer.BadParameter.__mro__[1]
@@ -25,7 +26,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-for command in (run, cosim, build, replay, check):
+for command in (run, cosim, report, build, replay, check):
     app.command()(command)
 
 

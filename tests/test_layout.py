@@ -23,8 +23,11 @@ MAY_IMPORT = {
     "railcosim": {
         *(OURS - {"railcosim"}),
         "fmpy",
+        "jinja2",
+        "markupsafe",
         "matplotlib",
         "numpy",
+        "plotly",
         "pyarrow",
         "rich",
         "scipy",
@@ -126,8 +129,11 @@ def test_a_package_imports_itself_by_relative_imports(part):
 
 def test_every_library_in_use_is_declared_and_every_declared_one_is_used():
     project = project_file()["project"]
-    extra = project["optional-dependencies"]["parquet"]
-    names = [re.split(r"[\[<>=! ]", line)[0] for line in [*project["dependencies"], *extra]]
+    extras = [
+        *project["optional-dependencies"]["parquet"],
+        *project["optional-dependencies"]["report"],
+    ]
+    names = [re.split(r"[\[<>=! ]", line)[0] for line in [*project["dependencies"], *extras]]
     behind_xarray = {"h5netcdf", "h5py"}  # which writes its files through them
     used = {item.top for part in OURS for item in foreign(part)} - OURS
     assert set(names) - behind_xarray == used
