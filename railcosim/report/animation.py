@@ -25,8 +25,11 @@ SPACING = 0.05
 RATE = 2000.0
 """Frames per simulated second: twice the rail's pinned-pinned resonance [Hz]."""
 
-MOST_FRAMES = 1500
+MOST_FRAMES = 1000
 """Frames of a slow or long passage, whose rate is lower then."""
+
+MOST_CURVE_POINTS = 3000
+"""Points of the force beside the rail."""
 
 SHORTEST = 20
 """Frames that make an animation."""
@@ -65,7 +68,7 @@ def animate(passage: xr.Dataset) -> dict[str, Any] | None:
     force = passage["contact_force"].to_numpy()
     inside = (clock >= times[0]) & (clock <= times[-1])
     flat = scenario.flat.wheel - 1
-    curve = np.flatnonzero(inside)[thinned(force[inside, flat])]
+    curve = np.flatnonzero(inside)[thinned(force[inside, flat], MOST_CURVE_POINTS)]
     peak = int(np.abs(times - clock[curve][force[curve, flat].argmax()]).argmin())
     return {
         "rate": 1.0 / float(times[1] - times[0]),

@@ -91,27 +91,25 @@ def study(passage: xr.Dataset, run: Runner) -> Convergence:
         Where one of them fails or is interrupted.
     """
     scenario = from_toml(passage.attrs["scenario"])
-    results: list[tuple[str, float | None, xr.Dataset]] = [
-        (_label(scenario), scenario.master.step, passage)
-    ]
-    results += [
-        (_label(case), case.master.step, _complete(run(case, _label(case)), _label(case)))
-        for case in refinements(scenario)
-    ]
-    coarsest = scenario.master.step or scenario.master.largest_step
-    times = _times(passage, coarsest)
-    forces = [np.interp(times, result["time"], _force(result)) for *_, result in results]
+    times = _times(passage, scenario.master.step or scenario.master.largest_step)
+    summaries, forces = [summarise(passage)], [_force(passage, times)]
+    others = refinements(scenario)
+    for other in others:  # one result in memory at a time
+        result = _complete(run(other, _label(other)), _label(other))
+        summaries.append(summarise(result))
+        forces.append(_force(result, times))
+    settings = [scenario, *others]
     static = float(passage["static_wheel_load"])
     cases = tuple(
         Case(
-            label=label,
-            step=step,
-            summary=summarise(result),
+            label=_label(setting),
+            step=setting.master.step,
+            summary=summary,
             deviation=_size(force - forces[-1]) / static,
         )
-        for (label, step, result), force in zip(results, forces, strict=True)
+        for setting, summary, force in zip(settings, summaries, forces, strict=True)
     )
-    fixed = [force for (_, step, _), force in zip(results, forces, strict=True) if step is not None]
+    fixed = [force for case, force in zip(cases, forces, strict=True) if case.step is not None]
     return Convergence(cases=cases, orders=_orders(fixed))
 
 
@@ -153,11 +151,11 @@ def _times(passage: xr.Dataset, step: float) -> NDArray[np.float64]:
     return step * np.arange(np.ceil(start / step), np.floor(end / step) + 1.0)
 
 
-def _force(result: xr.Dataset) -> NDArray[np.float64]:
-    values: NDArray[np.float64] = (
-        result["contact_force"].sel(wheel=int(result["flat_wheel"])).to_numpy()
+def _force(result: xr.Dataset, times: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the contact force of the flat's wheel at some times [N]."""
+    return np.interp(
+        times, result["time"], result["contact_force"].sel(wheel=int(result["flat_wheel"]))
     )
-    return values
 
 
 def _size(values: NDArray[np.float64]) -> float:

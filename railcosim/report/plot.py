@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 Intervals: TypeAlias = list[tuple[float, float]]
 """Starts and ends."""
 
-MOST_POINTS = 10_000
+MOST_POINTS = 8_000
 """Points of a curve on the page, which keep it quick and small."""
 
 

@@ -134,6 +134,7 @@ def _iterations(passage: xr.Dataset) -> Plot:
     bars = go.Bar(
         x=numbers.tolist(),
         y=counts.tolist(),
+        width=0.6,
         marker={"color": BLUE},
         showlegend=False,
     )
