@@ -121,6 +121,11 @@ def test_no_button_sends_the_data_away(tab):
     assert titles == ["Download plot", "Zoom", "Pan", "Zoom in", "Zoom out"]
 
 
+def test_it_can_be_printed(tab):
+    assert tab.pdf().startswith(b"%PDF")
+    assert tab.evaluate(DRAWN, "contact-force") > 0
+
+
 def test_a_dark_page_has_its_own_colours_and_paper_has_none_of_them(opened):
     stroke = "document.querySelectorAll('#gap .js-line')[0].style.stroke"
     with opened(color_scheme="dark") as tab:

@@ -20,6 +20,7 @@
   };
 
   const draw = () => {
+    if (element("scene").clientWidth === 0) return; // while a browser lays the page out on paper
     const moment = time[0] + frame / show.rate;
     const forces = Array.from({ length: show.wheels }, (_, wheel) => scene.force(wheel, frame));
     element("exaggeration").textContent = scene.draw(frame);

@@ -24,6 +24,7 @@ const makeScene = (canvas, show) => {
   const wheelX = unpack(show.wheelX), gap = unpack(show.gap), force = unpack(show.force);
   const distance = unpack(show.distance);
   const deepest = rail.reduce((a, b) => Math.max(a, b), 0.01);
+  const highest = gap.reduce((a, b) => Math.max(a, b), 0);
   const strongest = force.reduce((a, b) => Math.max(a, b), show.static);
   const NICE = [1000, 500, 300, 200, 100, 50, 30, 20, 10, 5, 3, 2, 1];
   const RAIL = 8, SLEEPER = 15, WIDTH = 0.26;
@@ -60,7 +61,8 @@ const makeScene = (canvas, show) => {
     const exaggeration = NICE.find((value) => value <= wanted) ?? 1;
     const perMillimetre = (exaggeration * perMetre) / 1000;
     const radius = show.radius * perMetre;
-    const top = Math.max(2 * radius + 34, 0.46 * height);
+    const lift = highest * perMillimetre;
+    const top = Math.max(2 * radius + 34 + lift, 0.46 * height);
     return {
       width, height, perMetre, perMillimetre, exaggeration, radius, top,
       pad: Math.max(12, compression * perMillimetre + 8),
