@@ -88,7 +88,6 @@ def write_page(passage: xr.Dataset, convergence: Convergence | None = None) -> s
             version=__version__,
             shown_points=shown.sizes["time"],
             all_points=passage.sizes["time"],
-            colours=DARK,
             style=Markup(_asset("page.css")),  # noqa: S704 - a file of this package
             theme=theme,
             scripts=scripts,
