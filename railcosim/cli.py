@@ -15,6 +15,7 @@ from .commands.endings import say
 from .commands.load_displacement import load_displacement
 from .commands.receptance import receptance
 from .commands.replay import replay
+from .commands.report import report
 from .commands.run import run
 from .commands.tune import tune
 
@@ -29,7 +30,18 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-for command in (run, cosim, build, replay, check, compare, receptance, load_displacement):
+COMMANDS = (
+    run,
+    cosim,
+    report,
+    compare,
+    receptance,
+    load_displacement,
+    build,
+    replay,
+    check,
+)
+for command in COMMANDS:
     app.command()(command)
 app.add_typer(tune, name="tune")
 

@@ -23,9 +23,12 @@ MAY_IMPORT = {
     "railcosim": {
         *(OURS - {"railcosim"}),
         "fmpy",
+        "jinja2",
+        "markupsafe",
         "matplotlib",
         "numpy",
         "pandas",
+        "plotly",
         "pyarrow",
         "pytest",
         "rich",
@@ -129,9 +132,9 @@ def test_a_package_imports_itself_by_relative_imports(part):
 
 def test_every_library_in_use_is_declared_and_every_declared_one_is_used():
     project = project_file()["project"]
-    extras = project["optional-dependencies"]
-    extra = [*extras["parquet"], *extras["pytest"]]
-    names = [re.split(r"[\[<>=! ]", line)[0] for line in [*project["dependencies"], *extra]]
+    optional = project["optional-dependencies"]
+    extras = [line for name in ("parquet", "pytest", "report") for line in optional[name]]
+    names = [re.split(r"[\[<>=! ]", line)[0] for line in [*project["dependencies"], *extras]]
     behind_xarray = {"h5netcdf", "h5py"}  # which writes its files through them
     used = {item.top for part in OURS for item in foreign(part)} - OURS
     assert set(names) - behind_xarray == used

@@ -19,6 +19,13 @@ class FmuKind(StrEnum):
     NATIVE = "native"
 
 
+class ContactName(StrEnum):
+    """Which of the two FMUs has the contacts."""
+
+    VEHICLE = "vehicle"
+    TRACK = "track"
+
+
 Isolate = Annotated[bool, typer.Option("--isolate", help="Run each FMU in a process of its own.")]
 Timeout = Annotated[
     float | None,

@@ -1,7 +1,6 @@
 """`railcosim run`: one passage."""
 
 import json
-from enum import StrEnum
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -22,6 +21,7 @@ from ..summary import summarise
 from ..summary_table import summary_table
 from .endings import check_result, exit_codes, keeping, say
 from .options import (
+    ContactName,
     FmuKind,
     Isolate,
     Json,
@@ -38,13 +38,6 @@ from .options import (
     time_limit,
 )
 from .stdout import stdout_for_results
-
-
-class ContactName(StrEnum):
-    """Which of the two FMUs has the contacts."""
-
-    VEHICLE = "vehicle"
-    TRACK = "track"
 
 
 def run(

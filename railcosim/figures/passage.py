@@ -37,7 +37,7 @@ def draw_passage(passage: xr.Dataset) -> Figure:
     """
     scenario = from_toml(passage.attrs["scenario"])
     drawn = passage
-    if _strikes_once(scenario):
+    if strikes_once(scenario):
         distance = passage["distance"]
         drawn = passage.isel(time=((distance >= SPAN[0]) & (distance <= SPAN[1])).to_numpy())
     figure = Figure(figsize=(8.0, 9.0), layout="constrained")
@@ -62,7 +62,7 @@ def describe(scenario: Scenario) -> str:
     return f"{speed}, {wheel}{rail}, {scenario.track.ballast.replace('_', '-')} track"
 
 
-def _strikes_once(scenario: Scenario) -> bool:
+def strikes_once(scenario: Scenario) -> bool:
     """Whether all that happens is one strike of the flat."""
     flat = scenario.flat
     return flat.shape != "none" and not flat.periodic and not scenario.vehicle.rail_irregularity
@@ -79,7 +79,7 @@ def _size(flat: Flat) -> str:
     )
 
 
-def _wheel_colours(drawn: xr.Dataset) -> dict[int, str]:
+def wheel_colours(drawn: xr.Dataset) -> dict[int, str]:
     """Give every wheel a colour, the flat's wheel always the same."""
     others = cycle(OTHERS)
     flat_wheel = int(drawn["flat_wheel"])
@@ -92,7 +92,7 @@ def _wheel_colours(drawn: xr.Dataset) -> dict[int, str]:
 def _draw_forces(axes: Axes, drawn: xr.Dataset) -> None:
     """Draw the contact force of every wheel, the static load, and where the flat's wheel is off."""
     x, flat_wheel = drawn["distance"], int(drawn["flat_wheel"])
-    for wheel, colour in _wheel_colours(drawn).items():
+    for wheel, colour in wheel_colours(drawn).items():
         force = 1e-3 * drawn["contact_force"].sel(wheel=wheel)
         axes.plot(x, force, color=colour, label=f"wheel {wheel}")
     static = 1e-3 * float(drawn["static_wheel_load"])
@@ -108,7 +108,7 @@ def _draw_forces(axes: Axes, drawn: xr.Dataset) -> None:
 def _draw_displacements(axes: Axes, drawn: xr.Dataset) -> None:
     """Draw, downwards as they are, the rail under every wheel and the sleeper that moves most."""
     x = drawn["distance"]
-    for wheel, colour in _wheel_colours(drawn).items():
+    for wheel, colour in wheel_colours(drawn).items():
         rail = 1e3 * drawn["rail_displacement"].sel(wheel=wheel)
         axes.plot(x, rail, color=colour, label=f"rail under wheel {wheel}")
     largest = 1e3 * drawn["sleeper_displacement"].max("sleeper")
