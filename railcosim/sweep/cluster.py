@@ -49,7 +49,7 @@ def local_client(workers: int | None, cases: int) -> Iterator[Client]:
         n_workers=min(workers or CPU_COUNT, cases),
         threads_per_worker=1,
         processes=True,
-        dashboard_address=None,
+        dashboard_address="127.0.0.1:0",
         silence_logs=logging.CRITICAL,
     )
     with cluster, distributed.Client(cluster, set_as_default=False) as client:
