@@ -79,6 +79,31 @@ def stored(store):
     return sorted(store.glob("[0-9a-f]" * 32 + ".json"))
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_sweep_says_how_far_it_is(cheap, tmp_path, number):
+    """Ctrl-C reaches the workers as well."""
+    path, store = tmp_path / "study.toml", tmp_path / "study.store"
+    path.write_text(cheap + STUDY)
+    command = [sys.executable, "-m", "railcosim", "sweep", str(path), "--workers", "1"]
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True, text=True
+    )
+    while not stored(store) and process.poll() is None:
+        time.sleep(0.01)
+    children = psutil.Process(process.pid).children(recursive=True)
+    if number == signal.SIGINT:
+        os.killpg(process.pid, number)
+    else:
+        process.send_signal(number)
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, out) == (1, "")
+    assert f"of {CASES} cases stored; the same command goes on" in err.splitlines()[-1]
+    assert "Traceback" not in err
+    assert psutil.wait_procs(children, timeout=60)[1] == []
+    assert 0 < len(stored(store)) < CASES
+
+
 @contextmanager
 def own_worker():
     """Start a worker in a process of its own."""
