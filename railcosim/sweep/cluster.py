@@ -44,17 +44,23 @@ def local_client(workers: int | None, cases: int) -> Iterator[Client]:
         raise InputError(f"--workers is {workers} but must be at least 1")
     _require_library()
     import distributed  # noqa: PLC0415 - an optional library, found just above
+    from dask.config import set as configured  # noqa: PLC0415 - likewise
     from dask.system import CPU_COUNT  # noqa: PLC0415 - likewise
 
-    cluster = distributed.LocalCluster(
-        n_workers=min(workers or CPU_COUNT, cases),
-        threads_per_worker=1,
-        processes=True,
-        preload=worker_preload.__name__,
-        dashboard_address="127.0.0.1:0",
-        silence_logs=logging.CRITICAL,
-    )
-    with cluster, distributed.Client(cluster, set_as_default=False) as client:
+    # the profile that a worker keeps of an hour takes a hundred kilobytes a second
+    without_profile = configured({"distributed.worker.profile.enabled": False})
+    with (
+        without_profile,
+        distributed.LocalCluster(
+            n_workers=min(workers or CPU_COUNT, cases),
+            threads_per_worker=1,
+            processes=True,
+            preload=worker_preload.__name__,
+            dashboard_address="127.0.0.1:0",
+            silence_logs=logging.CRITICAL,
+        ) as cluster,
+        distributed.Client(cluster, set_as_default=False) as client,
+    ):
         yield client
 
 
