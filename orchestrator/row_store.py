@@ -31,6 +31,7 @@ class RowStore:
         self._count = 0
         self._chunks: list[NDArray[np.void]] = []
         self._file: IO[bytes] | None = None
+        self._mapped: NDArray[np.void] | None = None
 
     def __len__(self) -> int:
         """Return the number of rows."""
@@ -55,7 +56,9 @@ class RowStore:
     def as_array(self) -> NDArray[np.void]:
         """Return all rows, shape (n_rows,), read-only where they are in a file."""
         if self._file is not None:
-            return np.memmap(self._file, self._row_type, mode="r", shape=(self._count,))
+            if self._mapped is None or len(self._mapped) != self._count:
+                self._mapped = np.memmap(self._file, self._row_type, "r", shape=(self._count,))
+            return self._mapped
         if len(self._chunks) != 1:
             self._chunks = [np.concatenate([np.empty(0, self._row_type), *self._chunks])]
         return self._chunks[0]

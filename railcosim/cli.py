@@ -17,6 +17,7 @@ from .commands.receptance import receptance
 from .commands.replay import replay
 from .commands.report import report
 from .commands.run import run
+from .commands.sweep import sweep
 from .commands.tune import tune
 
 USAGE_ERROR: Any = typer.BadParameter.__mro__[1]
@@ -32,6 +33,7 @@ app = typer.Typer(
 
 COMMANDS = (
     run,
+    sweep,
     cosim,
     report,
     compare,

@@ -22,6 +22,8 @@ MAY_IMPORT = {
     "build_fmus": {"platformdirs", "fmu_src"},
     "railcosim": {
         *(OURS - {"railcosim"}),
+        "dask",
+        "distributed",
         "fmpy",
         "jinja2",
         "markupsafe",
@@ -133,7 +135,7 @@ def test_a_package_imports_itself_by_relative_imports(part):
 def test_every_library_in_use_is_declared_and_every_declared_one_is_used():
     project = project_file()["project"]
     optional = project["optional-dependencies"]
-    extras = [line for name in ("parquet", "pytest", "report") for line in optional[name]]
+    extras = [line for name in ("parquet", "pytest", "report", "sweep") for line in optional[name]]
     names = [re.split(r"[\[<>=! ]", line)[0] for line in [*project["dependencies"], *extras]]
     behind_xarray = {"h5netcdf", "h5py"}  # which writes its files through them
     used = {item.top for part in OURS for item in foreign(part)} - OURS
