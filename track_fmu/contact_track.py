@@ -13,6 +13,7 @@ from .contact_solution import solve_contact
 from .contact_state import ContactState
 from .continuation import begin, continued, remember
 from .observation import Observation
+from .step_parts import count_parts
 from .track_model import TrackModel
 
 LONGEST_PART = 2e-4  # s; beyond it the contact forces on straight lines resolve no strike
@@ -172,18 +173,17 @@ class ContactTrack:
         Raises
         ------
         ValueError
-            If the step is not positive, a wheel leaves the track or an input is not a number.
+            If the step is not positive or too long, see `count_parts`, a wheel leaves the track or
+            an input is not a number.
         RuntimeError
             If the forces do not converge. The state is then unchanged.
         """
-        if not (math.isfinite(step_size) and step_size > 0.0):
-            raise ValueError(f"track: step size {step_size!r} s must be greater than 0")
+        parts = count_parts(step_size, LONGEST_PART)
         _check_displacements(displacements)
         for position in positions:
             locate(self._track.track.parameters, float(position))
         own, before = self._own, self.state
         given = np.concatenate((positions, displacements))
-        parts = max(1, math.ceil(step_size / LONGEST_PART - 1e-9))
         force = self.contact_force
         passed = float(own.passed[0])
         if passed > 0.0:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import OrderedDict
 from dataclasses import dataclass
 
@@ -17,6 +16,7 @@ from .observation import Observation
 from .reduction import ReducedTrack
 from .static_start import static_start
 from .step_operator import StepOperator
+from .step_parts import count_parts
 from .supports import nearest_supports
 from .track_state import TrackState
 
@@ -162,16 +162,15 @@ class TrackModel:
         Raises
         ------
         ValueError
-            If the step is not positive, a wheel leaves the track or a force is not a number.
+            If the step is not positive or too long, see `count_parts`, a wheel leaves the track or
+            a force is not a number.
         RuntimeError
             If the state-dependent forces do not converge: the step is too long. The state is
             then unchanged.
         """
-        if not (np.isfinite(step_size) and step_size > 0.0):
-            raise ValueError(f"track: step size {step_size!r} s must be greater than 0")
+        parts = count_parts(step_size, LONGEST_STEP)
         self._check_forces(forces)
         self._locate(positions)  # refuses a wheel beyond the track before anything has changed
-        parts = max(1, math.ceil(step_size / LONGEST_STEP - 1e-9))
         before = self._state.flat.copy() if parts > 1 else None
         start, start_force = self._state.position.copy(), self._state.force.copy()
         try:

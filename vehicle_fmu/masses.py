@@ -6,10 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from .speed import SpeedLaw
-from .validation import FloatArray, require_finite, require_positive
-
-# The caller's time and the end of the last step may come from different sums of step sizes.
-_TIME_TOLERANCE = 1e-9
+from .validation import (
+    FloatArray,
+    require_finite,
+    require_position,
+    require_positive,
+    require_step,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -119,25 +122,24 @@ class Masses:
         Raises
         ------
         ValueError
-            If a force is not finite, `time` is not where the model is, or `step_size` is not
-            finite and above zero.
+            If a force is not finite or drives a wheel out of the range of numbers, `time` is not
+            where the model is, or `step_size` is not finite and above zero, or too small to move
+            the time on.
         """
-        if not math.isclose(time, self._state[1], rel_tol=_TIME_TOLERANCE, abs_tol=_TIME_TOLERANCE):
-            raise ValueError(
-                f"the step starts at {time!r} s, the masses are at {float(self._state[1])!r} s; "
-                "steps must join: restore the state of that time first"
-            )
-        if not (math.isfinite(step_size) and step_size > 0.0):
-            raise ValueError(
-                f"the step size is {step_size:g} s; it must be a finite number above zero"
-            )
+        require_step(time, step_size, reached=float(self._state[1]), what="masses are")
         _check_forces(forces)
-        passed = float(self._state[2])
-        if linear and passed > 0.0:  # where nobody tells what the forces have become
-            self._follow(passed, self._wheels[2] + passed * self._wheels[3])
-        self._follow(step_size if linear else passed, forces)
-        self._state[1] = time + step_size
-        self._state[2] = 0.0 if linear else step_size
+        before, passed = self.state, float(self._state[2])
+        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused below
+            if linear and passed > 0.0:  # where nobody tells what the forces have become
+                self._follow(passed, self._wheels[2] + passed * self._wheels[3])
+            self._follow(step_size if linear else passed, forces)
+            self._state[1] = time + step_size
+            self._state[2] = 0.0 if linear else step_size
+            try:
+                self._check_motion()
+            except ValueError:
+                self.state = before
+                raise
 
     @property
     def state(self) -> FloatArray:
@@ -168,6 +170,19 @@ class Masses:
     def velocity(self) -> FloatArray:
         """Velocity of each wheel [m/s], positive downwards, shape (wheels,)."""
         return self._moved(float(self._state[2]), self._wheels[3])[1]
+
+    def _check_motion(self) -> None:
+        """Refuse a state in which not everything is a finite number."""
+        require_position(float(self.position[0]), float(self._state[1]))
+        force, slope = self._wheels[2:]
+        z, v = self._moved(float(self._state[2]), slope)
+        bad = np.flatnonzero(~(np.isfinite(z) & np.isfinite(v) & np.isfinite(slope)))
+        if bad.size:
+            i = int(bad[0])
+            raise ValueError(
+                f"the contact force of {force[i]:g} N on wheel {i + 1} drives the wheel to "
+                f"{z[i]:g} m at {v[i]:g} m/s; give a smaller one or a step of another size"
+            )
 
     def _follow(self, duration: float, forces: FloatArray) -> None:
         """Move to where the forces are known to have become the given ones."""

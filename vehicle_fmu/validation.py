@@ -8,6 +8,9 @@ import numpy.typing as npt
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 
+# The caller's time and the end of the last step may come from different sums of step sizes.
+_TIME_TOLERANCE = 1e-9
+
 
 def require_finite(name: str, value: float, unit: str, remedy: str) -> None:
     """Raise ValueError unless `value` is a finite number."""
@@ -20,6 +23,42 @@ def require_positive(name: str, value: float, unit: str, remedy: str) -> None:
     if not (math.isfinite(value) and value > 0.0):
         raise ValueError(
             f"{name} is {value:g} {unit}; it must be a finite number above zero: {remedy}"
+        )
+
+
+def require_step(time: float, step_size: float, *, reached: float, what: str) -> None:
+    """Raise ValueError unless a step goes on from where a model is, to an end that is later.
+
+    Parameters
+    ----------
+    time, step_size : float
+        Start of the step and its length [s].
+    reached : float
+        Where the model is [s].
+    what : str
+        The model and its verb, for the message.
+    """
+    if not math.isclose(time, reached, rel_tol=_TIME_TOLERANCE, abs_tol=_TIME_TOLERANCE):
+        raise ValueError(
+            f"the step starts at {time!r} s, the {what} at {reached!r} s; "
+            "steps must join: restore the state of that time first"
+        )
+    if not (math.isfinite(time + step_size) and step_size > 0.0):
+        raise ValueError(
+            f"the step size is {step_size:g} s; it must be a finite number above zero, and so must "
+            "be its end"
+        )
+    if time + step_size == time:
+        raise ValueError(
+            f"a step of {step_size:g} s from {time!r} s does not move the time on; use a longer one"
+        )
+
+
+def require_position(position: float, time: float) -> None:
+    """Raise ValueError unless the `position` of wheel 1 at a time is a finite number [m], [s]."""
+    if not math.isfinite(position):
+        raise ValueError(
+            f"wheel 1 would be at {position:g} m at {time:g} s; use a lower speed or a shorter step"
         )
 
 

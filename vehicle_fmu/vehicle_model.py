@@ -12,11 +12,10 @@ from .irregularity import RailIrregularity
 from .parameters import FlatParameters, VehicleParameters
 from .running_surface import checked_rail_displacement, surface_over_step
 from .speed import SpeedLaw
-from .validation import FloatArray
+from .validation import FloatArray, require_position, require_step
 from .wheel_profile import WheelProfileTable, check_flat
 
-# The caller's time and the end of the last step may come from different sums of step sizes.
-_TIME_TOLERANCE = 1e-9
+MOST_SUBSTEPS = 1e5  # of a step; 2 s with the usual substep, the way of a whole passage
 
 
 class VehicleModel:
@@ -127,7 +126,7 @@ class VehicleModel:
         ValueError
             If a displacement is not finite or drives a wheel out of the range of numbers, their
             number is not that of wheels, `time` is not where the model is, or `step_size` is not
-            finite and above zero.
+            finite and above zero, too small to move the time on, or more than `MOST_SUBSTEPS`.
         """
         self._check_step(time, step_size)
         rail = checked_rail_displacement(rail_displacement, self.parameters.wheels)
@@ -244,15 +243,15 @@ class VehicleModel:
     def _check_step(self, time: float, step_size: float) -> None:
         """Refuse a step that does not join the last one or has no proper length."""
         self._require_started()
-        if not math.isclose(time, self._time, rel_tol=_TIME_TOLERANCE, abs_tol=_TIME_TOLERANCE):
+        require_step(time, step_size, reached=self._time, what="vehicle is")
+        substep = self.parameters.substep
+        if step_size / substep > MOST_SUBSTEPS:
             raise ValueError(
-                f"the step starts at {time!r} s, the vehicle is at {self._time!r} s; "
-                "steps must join: restore the state of that time first"
+                f"a step of {step_size:g} s is more than {MOST_SUBSTEPS:g} substeps of "
+                f"{substep:g} s; use a shorter step"
             )
-        if not (math.isfinite(step_size) and step_size > 0.0):
-            raise ValueError(
-                f"the step size is {step_size:g} s; it must be a finite number above zero"
-            )
+        end = time + step_size
+        require_position(self._excitation.positions(self._start, end)[0], end)
 
     def _require_started(self) -> None:
         if not self._displacement:

@@ -159,6 +159,13 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
                 Fmi2Status.discard,
             )
             return False
+        if step_size > 0.0 and current_time + step_size == current_time:
+            self.log(
+                f"a step of {step_size:g} s from {current_time!r} s does not move the time on; use "
+                "a longer one",
+                Fmi2Status.discard,
+            )
+            return False
         before = self._model.state
         try:
             self.step_model(self._model, self._time, step_size, self._groups, linear=self._linear)

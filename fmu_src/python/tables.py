@@ -38,11 +38,7 @@ def read_table(
         If the file cannot be read, a line has the wrong number of values or a value is not a
         finite number; the message names file and line.
     """
-    try:
-        text = Path(path).read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise ValueError(f"table {path}: cannot be read ({reason})") from error
+    text = _read_text(path)
     rows: list[list[float]] = []
     names = list(columns)
     header_allowed = True
@@ -62,6 +58,23 @@ def read_table(
         raise ValueError(f"table {path}: has no rows; expected columns {', '.join(columns)}")
     values = np.array(rows)
     return {name: values[:, i].copy() for i, name in enumerate(names)}
+
+
+def _read_text(path: str | Path) -> str:
+    """Text of a file without its byte order mark."""
+    try:
+        data = Path(path).read_bytes()
+    except OSError as error:
+        raise ValueError(f"table {path}: cannot be read ({error.strerror})") from error
+    zero = data.find(0)
+    if zero >= 0:
+        raise ValueError(
+            f"table {path}: byte {zero + 1} is zero, which is no text; save the table as UTF-8"
+        )
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise ValueError(f"table {path}: cannot be read (it is not UTF-8 text)") from error
 
 
 def _has_separator(content: str) -> bool:

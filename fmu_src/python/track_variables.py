@@ -23,6 +23,7 @@ TABLE_1 = (
 )
 APPROACH = 3.875  # m before the middle of the track; the demonstration example starts at 12.7 m
 AXLE_BASE = 1.8  # m
+SPEED = 40.0 / 3.6  # m/s, as the vehicles have it
 STATIC_WHEEL_LOAD = 117_720.0  # N
 
 
@@ -103,8 +104,9 @@ def track_parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
             name="initial_speed",
             causality="parameter",
             unit="m/s",
-            start=options.initial_speed,
-            description="Speed with which the static deflection moves along at the start",
+            start=SPEED,
+            description="Speed with which the static deflection moves along at the start: that of "
+            "the wheels; 0 for wheels that stand",
         ),
     ]
     middle, offsets = _middle(structure), [0.0, -0.5, 0.5]

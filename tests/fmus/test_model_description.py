@@ -45,6 +45,16 @@ def test_connected_variables_agree_in_unit_and_nominal(fmus):
     assert float(track["wheel[1].contact_force"].nominal) == 1e5
 
 
+def test_connected_as_they_are_they_begin_alike(fmus):
+    """Place, load and speed of the wheels: else the static start is none of this vehicle."""
+    track, vehicle = ({v.name: v.start for v in d.modelVariables} for d in descriptions(fmus))
+    assert track["initial_speed"] == vehicle["speed"]
+    assert track["wheel[1].position"] == vehicle["initial_position"]
+    assert track["wheel[1].contact_force"] == vehicle["static_wheel_load"]
+    behind = float(track["wheel[1].position"]) - float(track["wheel[2].position"])
+    assert behind == pytest.approx(float(vehicle["axle_base"]), abs=1e-12)
+
+
 def test_outputs_depend_on_inputs_through_steps_only(fmus):
     """At a communication point nothing feeds through; during initialisation the statics do."""
     for path in (fmus.track, fmus.vehicle):

@@ -45,6 +45,17 @@ def test_a_step_from_another_time_is_discarded(open_fmu, small_fmus):
     assert "does not continue from" in slave.messages[-1]
 
 
+def test_a_step_that_does_not_move_the_time_on_is_discarded(open_fmu, small_fmus):
+    """Of a track, too, which knows no time."""
+    slave = small_track(open_fmu, small_fmus)
+    drive_track(slave, 0, 2)
+    before = slave.outputs()
+    with pytest.raises(FMICallException, match="discard"):
+        slave.fmu.doStep(2 * STEP, 1e-22)
+    assert "does not move the time on" in slave.messages[-1]
+    assert slave.outputs() == before
+
+
 @pytest.mark.parametrize(
     ("kind", "name", "value", "sentence"),
     [

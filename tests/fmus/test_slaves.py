@@ -36,7 +36,7 @@ def test_the_track_fmu_is_the_track_model(open_fmu, small_fmus):
     parameters = TrackParameters(bays=12, elements_per_bay=4)
     matrices = assemble(parameters)
     reduced = reduce_track(parameters, matrices, compute_basis(matrices, mode_pairs=40))
-    options = TrackOptions(wheels=1, gauges=(3.9,))
+    options = TrackOptions(wheels=1, gauges=(3.9,), initial_speed=40.0 / 3.6)
     model = TrackModel(reduced, options, ballast=PolynomialBallast())
     model.start(np.array([3.9]), np.array([STATIC_LOAD]))
     drive_track(slave, 0, 50)

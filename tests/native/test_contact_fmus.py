@@ -124,6 +124,16 @@ def test_a_step_ends_at_a_loss_of_contact_if_the_host_allows_it(fmi):
     assert not early.early
 
 
+def test_late_in_a_simulation_a_step_ends_as_near_to_the_loss_as_its_time_can_tell(fmi):
+    """Contact is lost 4e-9 s into the step, and times of 1e10 s are 2e-6 s apart."""
+    time = 1e10
+    early = fmi(3, "track_contact", early_return=True).start(time, linear_inputs=True)
+    early.must(early.put("wheel[1].displacement", -30.0))
+    status, reached = early.step(time, 1e-3)
+    assert (status, early.early) == (OK, True)
+    assert time < reached <= time + 8.0 * np.spacing(time)
+
+
 # passages
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from .derivatives import check_derivative
-from .library import HELD, OUTPUT, REAL, STRAIGHT, NativeError
+from .library import HELD, OUTPUT, REAL, STRAIGHT, DiscardedError, NativeError
 from .twins import assert_alike
 
 LOAD = 117_720.0
@@ -209,6 +209,19 @@ def test_derivatives_of_the_masses(native, linear, steps):
     unknowns = [f"wheel[{i}].{name}" for i in (1, 2) for name in ("displacement", "velocity")]
     knowns = [f"wheel[{i}].contact_force" for i in (1, 2)]
     check_derivative(model, knowns, [1.0, -0.4], unknowns, step=2e-4, size=1e5, agreement=1e-10)
+
+
+def test_there_is_no_derivative_beyond_the_track(native):
+    """Central differences would need wheels there; the instance goes on."""
+    model = native("track_contact", linear_inputs=True)
+    model.enter()
+    model.set_group("wheel[#].position", [4.5, 0.0])
+    model.exit()
+    model.step(0.0, 1e-4)
+    with pytest.raises(DiscardedError, match="lies outside the track"):
+        model.derivative(["wheel[2].gap"], ["wheel[2].position"], [1.0])
+    assert model.derivative(["wheel[1].gap"], ["wheel[1].position"], [1.0]).shape == (1,)
+    model.step(1e-4, 1e-4)
 
 
 def test_wheels_that_do_not_touch_press_on_nothing(native):

@@ -6,19 +6,14 @@ from pathlib import Path
 
 import pytest
 
+from fmu_src.native.compiler import MODELS
+
 SCRIPT = Path(__file__).with_name("fuzz_calls.py")
-CALLS = 10_000
+CALLS = 5_000
 
 
 @pytest.mark.parametrize("version", [2, 3])
-@pytest.mark.parametrize(
-    "model",
-    [
-        "track",
-        "vehicle",
-        *(pytest.param(n, marks=pytest.mark.slow) for n in ("track_contact", "masses")),
-    ],
-)
+@pytest.mark.parametrize("model", MODELS)
 def test_no_call_crashes(unpacked, tmp_path, version, model):
     """All three answers come, so that the calls reach what is behind the checks."""
     command = [sys.executable, SCRIPT, unpacked[version, model], "1", str(CALLS)]

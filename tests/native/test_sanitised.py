@@ -8,6 +8,8 @@ import os
 
 import pytest
 
+from fmu_src.native.compiler import MODELS
+
 from . import sanitised
 
 LOG = logging.getLogger(__name__)
@@ -20,9 +22,9 @@ KINDS = ["2", "3", "resources"]
 
 
 @pytest.fixture(scope="module")
-def programs(tmp_path_factory, resources):
+def programs(tmp_path_factory):
     folder = tmp_path_factory.mktemp("sanitised")
-    return sanitised.build(folder, sorted(resources), sanitised.compiler())
+    return sanitised.build(folder, sorted(MODELS), sanitised.compiler())
 
 
 def put(folder, data, token=TOKEN):
@@ -63,13 +65,13 @@ def check(program, kind, places):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("model", ["track", "vehicle"])
+@pytest.mark.parametrize("model", MODELS)
 def test_under_the_best_sanitizers(programs, folders, model, kind):
     check(programs[model], kind, folders(model))
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("model", ["track", "vehicle"])
+@pytest.mark.parametrize("model", MODELS)
 def test_under_the_sanitizer_that_is_always_there(tmp_path, folders, model):
     programs = sanitised.build(tmp_path, [model], "zig")
     places = folders(model)

@@ -178,13 +178,6 @@ def test_refused_steps_change_nothing(contact_pair, short_track, group, values, 
     assert pair.native.state.tobytes() == before.tobytes()
 
 
-def test_steps_of_too_many_parts_are_refused(contact_pair, short_track):
-    pair = contact_pair(short_track)
-    pair.start(np.array([4.5, 2.7]), np.zeros(2))
-    with pytest.raises(DiscardedError, match=r"more than 1e\+06 parts of 0.0002 s"):
-        pair.native_step(1e3, linear=True)
-
-
 @pytest.mark.parametrize(
     ("name", "value", "message"),
     [

@@ -171,3 +171,10 @@ def test_steps_must_join():
     vehicle.initialise(0.0)
     with pytest.raises(ValueError, match=r"the step starts at 0.5 s, the vehicle is at 0.0 s"):
         vehicle.step(0.5, 1e-4, np.zeros(2), linear=True)
+
+
+def test_steps_must_move_the_time_on():
+    vehicle = build()
+    vehicle.initialise(1000.0)
+    with pytest.raises(ValueError, match=r"1e-14 s from 1000.0 s does not move the time on"):
+        vehicle.step(1000.0, 1e-14, np.zeros(2), linear=True)

@@ -99,6 +99,8 @@ def test_a_restored_state_repeats_itself_bit_for_bit():
         (1.0, 1e-3, LOAD, "steps must join"),
         (0.0, 0.0, LOAD, "step size is 0 s"),
         (0.0, 1e-3, np.nan, "contact force of wheel 1 is nan N"),
+        (0.0, 1e154, 1e30, "drives the wheel to -inf m"),
+        (0.0, np.inf, LOAD, "and so must be its end"),
     ],
 )
 def test_impossible_steps_are_refused(time, size, force, sentence):

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "dense.h"
 #include "track_contact.h"
 
 double rc_count_contact_parts(double step)
@@ -96,9 +97,12 @@ static int advance(rc_track_contact *own, double *dynamic, const rc_contact_stat
         own->level[i] = displacement[i] + at->origin[i] -
                         rc_surface_drop(&own->surfaces, i, position[i]);
     rc_prepare_operator(track, dynamic, step, 1, position);
-    if (!rc_solve_contact(track, &own->work, own->coefficient, own->level, at->compression))
+    if (!rc_solve_contact(track, &own->work, own->coefficient, own->level, at->compression) ||
+        !(rc_largest(own->work.solution->force, wheels) <= RC_MOST_FORCE))
         return 0;
     rc_move_track(track, &state, own->work.solution->force);
+    if (!rc_is_finite(&track->basis, &state))
+        return 0;
     memcpy(at->compression, own->work.solution->compression, wheels * sizeof(double));
     return 1;
 }

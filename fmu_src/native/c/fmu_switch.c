@@ -1,9 +1,12 @@
 /* Steps that end at a switch of contact, for hosts that allow it. */
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 #include "fmu.h"
 
 #define CLOSE_ENOUGH 1e-9 /* s; how far behind the switch a step may end */
+#define RESOLUTION (4.0 * DBL_EPSILON) /* of the time; what is shorter moves nothing on */
 #define MOST_BISECTIONS 60
 
 static void read_gaps(rc_fmu *fmu, double *gaps)
@@ -54,10 +57,11 @@ static rc_status go_back(rc_fmu *fmu, rc_status status)
 
 rc_status rc_fmu_go_back_to_switch(rc_fmu *fmu, double time, double step, int *ended_early)
 {
+    const double close = fmax(CLOSE_ENOUGH, RESOLUTION * fabs(time));
     double before = 0.0, behind = step, tried = step;
     if (!has_switched(fmu))
         return RC_OK;
-    for (int n = 0; n < MOST_BISECTIONS && behind - before > CLOSE_ENOUGH; ++n) {
+    for (int n = 0; n < MOST_BISECTIONS && behind - before > close; ++n) {
         tried = before + 0.5 * (behind - before);
         const rc_status status = repeat(fmu, time, tried, step);
         if (status != RC_OK)

@@ -1,6 +1,8 @@
 /* Rigid wheel masses under their loads, pressed up by given contact forces; twin of
  * vehicle_fmu/masses.py. */
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "instance.h"
 #include "motion.h"
@@ -33,6 +35,7 @@ typedef struct {
     rc_motion motion;
     double mass, load, initial_position;
     double last_line, last_ahead; /* s; over which the last forces came to be known, and beyond */
+    double *after; /* dynamic values at the end of a step that may still be refused */
 } rc_masses;
 
 /* Where the dynamic values are. Displacement, velocity and force of every wheel are those when the
@@ -56,12 +59,17 @@ static rc_status open_masses(rc_model *model)
         return RC_ERROR;
     own->wheels = model->dimensions[RC_WHEELS];
     model->dynamic_count = 3 + 4 * own->wheels;
-    return RC_OK;
+    own->after = calloc(model->dynamic_count, sizeof(double));
+    return own->after != NULL
+               ? RC_OK
+               : rc_fail(model, RC_ERROR, "there is not enough memory for the masses");
 }
 
 static void release(rc_model *model)
 {
-    rc_free_motion(&((rc_masses *)model->own)->motion);
+    rc_masses *own = model->own;
+    rc_free_motion(&own->motion);
+    free(own->after);
 }
 
 static rc_status check_parameters(rc_model *model)
@@ -147,6 +155,29 @@ static motion moved(const rc_masses *own, const view *at, size_t wheel, double d
                        (own->load - at->force[wheel]) / own->mass, -slope / own->mass);
 }
 
+/* Takes over the values in `after`, unless a wheel is driven out of the range of numbers. */
+static rc_status accept(rc_model *model)
+{
+    const rc_masses *own = model->own;
+    const view at = look(own, own->after);
+    const double *forces = rc_values(model, CONTACT_FORCE);
+    const double leading =
+        own->initial_position + rc_distance(&own->motion, *at.start, *at.time);
+    if (!isfinite(leading))
+        return rc_fail(model, RC_DISCARD, "wheel 1 would be at %g m at %g s; use a lower speed or a "
+                                          "shorter step", leading, *at.time);
+    for (size_t i = 0; i < own->wheels; ++i) {
+        const motion now = moved(own, &at, i, *at.passed, at.slope[i]);
+        if (!(isfinite(now.displacement) && isfinite(now.velocity) && isfinite(at.slope[i])))
+            return rc_fail(model, RC_DISCARD,
+                           "the contact force of %g N on wheel %zu drives the wheel to %g m at "
+                           "%g m/s; give a smaller one or a step of another size", forces[i],
+                           i + 1, now.displacement, now.velocity);
+    }
+    memcpy(model->dynamic, own->after, model->dynamic_count * sizeof(double));
+    return RC_OK;
+}
+
 /* Moves every wheel to where its force is known to have become the given one. */
 static void follow(const rc_masses *own, const view *at, double duration, const double *forces)
 {
@@ -173,12 +204,20 @@ static void settle(const rc_masses *own, const view *at)
     }
 }
 
+/* A copy of the dynamic values, to be accepted when it has moved. */
+static view copy(const rc_model *model)
+{
+    const rc_masses *own = model->own;
+    memcpy(own->after, model->dynamic, model->dynamic_count * sizeof(double));
+    return look(own, own->after);
+}
+
 static rc_status step_masses(rc_model *model, double step, int linear)
 {
     rc_masses *own = model->own;
-    const view at = look(own, model->dynamic);
     if (check_forces(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
+    const view at = copy(model);
     if (linear && *at.passed > 0.0)
         settle(own, &at);
     own->last_line = linear ? step : *at.passed;
@@ -186,18 +225,18 @@ static rc_status step_masses(rc_model *model, double step, int linear)
     follow(own, &at, own->last_line, rc_values(model, CONTACT_FORCE));
     *at.time = model->head->time + step; /* the host's, which need not be a sum of steps */
     *at.passed = own->last_ahead;
-    return RC_OK;
+    return accept(model);
 }
 
 static rc_status jump(rc_model *model)
 {
     const rc_masses *own = model->own;
-    const view at = look(own, model->dynamic);
     if (check_forces(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
+    const view at = copy(model);
     follow(own, &at, *at.passed, rc_values(model, CONTACT_FORCE));
     *at.passed = 0.0;
-    return RC_OK;
+    return accept(model);
 }
 
 static void read_outputs(rc_model *model, size_t group, double *values)

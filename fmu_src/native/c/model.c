@@ -141,6 +141,9 @@ rc_status rc_step(rc_model *model, double time, double step, rc_input_shape shap
     if (!(isfinite(time + step) && step > 0.0))
         return rc_fail(model, RC_DISCARD, "the step size is %g s; it must be a finite number "
                                           "above zero, and so must be its end", step);
+    if (!(time + step > time))
+        return rc_fail(model, RC_DISCARD, "a step of %g s from %.17g s does not move the time on; "
+                                          "use a longer one", step, time);
     model->stepped = 0; /* what derivatives need may be overwritten even if the step is refused */
     const rc_status status = model->kind->step(
         model, step, shape == RC_AS_PARAMETER ? model->linear : shape == RC_STRAIGHT);

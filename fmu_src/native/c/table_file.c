@@ -13,7 +13,7 @@
 static const char BLANK[] = " \t\v\f";
 
 /* The whole file with a zero behind it, NULL if it cannot be read. */
-static char *read_file(const char *path)
+static char *read_file(const char *path, size_t *length)
 {
     FILE *file = fopen(path, "rb");
     if (file == NULL)
@@ -37,6 +37,7 @@ static char *read_file(const char *path)
     fclose(file);
     if (text != NULL)
         text[size] = '\0';
+    *length = size;
     return text;
 }
 
@@ -148,10 +149,17 @@ static int check(const rc_table *table, const rc_table_kind *kind, char *message
 int rc_read_table(rc_table *table, const char *path, const rc_table_kind *kind, char *message,
                   size_t room)
 {
-    char *text = read_file(path);
+    size_t length;
+    char *text = read_file(path, &length);
     memset(table, 0, sizeof *table);
     if (text == NULL) {
         snprintf(message, room, "table %s: cannot be read", path);
+        return 0;
+    }
+    if (strlen(text) < length) {
+        snprintf(message, room, "table %s: byte %zu is zero, which is no text; save the table as "
+                                "UTF-8", path, strlen(text) + 1);
+        free(text);
         return 0;
     }
     const char *content = strncmp(text, "\xEF\xBB\xBF", 3) == 0 ? text + 3 : text;

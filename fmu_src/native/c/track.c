@@ -19,8 +19,7 @@ static const rc_group_kind KINDS[] = {
     [LINEAR_INPUTS] = {"linear_inputs", RC_BOOLEAN, RC_PARAMETER, RC_ONE},
 };
 
-#define MOST_FORCE 1e30 /* N; nothing that follows from less overflows */
-#define MOST_PARTS 1e6 /* of a step; half a minute of work */
+#define MOST_PARTS 1e5 /* of a step; less than a second of work */
 
 static rc_status open_track(rc_model *model)
 {
@@ -48,11 +47,11 @@ static rc_status check_inputs(rc_model *model, rc_status otherwise)
     rc_track *track = model->own;
     const double *forces = rc_values(model, CONTACT_FORCE);
     for (size_t i = 0; i < track->basis.wheels; ++i)
-        if (!(fabs(forces[i]) <= MOST_FORCE))
+        if (!(fabs(forces[i]) <= RC_MOST_FORCE))
             return rc_fail(model, otherwise,
                            "track: contact force %g N of wheel %zu must be a finite number of at "
                            "most %g N; look for the cause in the vehicle", forces[i], i + 1,
-                           MOST_FORCE);
+                           RC_MOST_FORCE);
     return rc_locate_wheels(model, track, rc_values(model, POSITION), otherwise);
 }
 
@@ -69,15 +68,6 @@ static rc_status start(rc_model *model)
 double rc_count_parts(double step)
 {
     return fmax(1.0, ceil(step / RC_LONGEST_STEP - 1e-9));
-}
-
-/* Whether a state is one of numbers; with a step too short for its inputs it is not. */
-static int is_finite(const rc_basis *basis, const rc_track_state *state)
-{
-    double sum = 0.0; /* of differences with themselves: zero or no number */
-    for (size_t i = 0; i < 5 * basis->wheels + 2 * basis->supports; ++i)
-        sum += state->position[i] - state->position[i];
-    return sum == 0.0;
 }
 
 int rc_advance_track(rc_track *track, double *dynamic, double step, const double *positions,
@@ -101,7 +91,7 @@ int rc_advance_track(rc_track *track, double *dynamic, double step, const double
                 whole ? forces[i] : from.force[i] + share * (forces[i] - from.force[i]);
         }
         rc_prepare_operator(track, dynamic, step / parts, track->linear, track->position);
-        if (!rc_apply_operator(track, &state, track->force) || !is_finite(basis, &state)) {
+        if (!rc_apply_operator(track, &state, track->force) || !rc_is_finite(basis, &state)) {
             memcpy(dynamic, parts > 1.0 ? track->before : track->operator_.start, size);
             return 0;
         }

@@ -8,6 +8,7 @@
 #include "supports.h"
 
 #define RC_LONGEST_STEP 5e-4 /* s; longer ones are divided */
+#define RC_MOST_FORCE 1e30   /* N; nothing that follows from less overflows */
 
 /* Where the dynamic values of a state are; twin of track_fmu/track_state.py. */
 typedef struct {
@@ -113,6 +114,9 @@ int rc_apply_operator(rc_track *track, rc_track_state *state, const double *forc
 
 /* Its derivative: what a change of the contact forces changes in the state. */
 int rc_differentiate_operator(rc_track *track, const double *force_change, rc_track_state *change);
+
+/* Whether a state is one of numbers; with a step too short for its inputs it is not. */
+int rc_is_finite(const rc_basis *basis, const rc_track_state *state);
 
 /* Into how many parts a step is divided. */
 double rc_count_parts(double step);

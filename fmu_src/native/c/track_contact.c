@@ -41,7 +41,7 @@ static const rc_group_kind KINDS[] = {
     [LINEAR_INPUTS] = {"linear_inputs", RC_BOOLEAN, RC_PARAMETER, RC_ONE},
 };
 
-#define MOST_PARTS 1e6 /* of a step; half a minute of work */
+#define MOST_PARTS 1e5          /* of a step; a second of work */
 #define SMALL_MOVE 1e-5         /* m; of a position, to difference a step */
 #define SMALL_DISPLACEMENT 1e-8 /* m; likewise of a displacement */
 
@@ -197,11 +197,11 @@ static rc_status repeat(rc_model *model, const double *seed, double factor, doub
     rc_track_contact *own = model->own;
     for (size_t k = 0; k < 2 * own->track.basis.wheels; ++k)
         own->moved[k] = own->given[k] + factor * seed[k];
-    if (rc_locate_wheels(model, &own->track, own->moved, RC_ERROR) != RC_OK)
-        return RC_ERROR;
+    if (rc_locate_wheels(model, &own->track, own->moved, RC_DISCARD) != RC_OK)
+        return RC_DISCARD;
     memcpy(own->after, own->before, model->dynamic_count * sizeof(double));
     if (!rc_advance_contact(own, own->after, own->last_step, own->moved, own->linear))
-        return rc_fail(model, RC_ERROR, "track: the last step has no derivative");
+        return rc_fail(model, RC_DISCARD, "track: the last step has no derivative");
     for (size_t group = CONTACT_FORCE; group < LINEAR_INPUTS; ++group)
         read_values(own, own->after, group, outputs + model->slots[group]);
     return RC_OK;
@@ -218,7 +218,7 @@ static rc_status derive(rc_model *model, const double *seed, double *changes)
     memset(model->known, 0, model->kind->kind_count); /* the outputs' place is borrowed */
     if (repeat(model, seed, factor, changes) != RC_OK ||
         repeat(model, seed, -factor, model->outputs) != RC_OK)
-        return RC_ERROR;
+        return RC_DISCARD;
     for (size_t k = 0; k < model->output_count; ++k)
         changes[k] = (changes[k] - model->outputs[k]) / (2.0 * factor);
     return RC_OK;

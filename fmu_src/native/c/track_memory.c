@@ -24,6 +24,14 @@ rc_track_state rc_view_state(const rc_basis *basis, double *values)
                             .load = rows + basis->length};
 }
 
+int rc_is_finite(const rc_basis *basis, const rc_track_state *state)
+{
+    double sum = 0.0; /* of differences with themselves: zero or no number */
+    for (size_t i = 0; i < 5 * basis->wheels + 2 * basis->supports; ++i)
+        sum += state->position[i] - state->position[i];
+    return sum == 0.0;
+}
+
 /* Hands out memory, or only measures it while `memory` is NULL. */
 typedef struct {
     unsigned char *memory;

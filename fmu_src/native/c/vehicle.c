@@ -6,7 +6,7 @@
 
 #include "contact.h"
 
-#define MOST_SUBSTEPS 1e9 /* of a step; an hour of work */
+#define MOST_SUBSTEPS 1e5 /* of a step; 2 s with the usual substep, the way of a whole passage */
 
 static const rc_group_kind KINDS[] = {
     [SPEED] = {"speed", RC_REAL, RC_PARAMETER, RC_ONE},
@@ -69,6 +69,10 @@ static rc_status step_vehicle(rc_model *model, double step, int linear)
     if (step / own->substep > MOST_SUBSTEPS)
         return rc_fail(model, RC_DISCARD, "a step of %g s is more than %g substeps of %g s; use a "
                                           "shorter step", step, MOST_SUBSTEPS, own->substep);
+    const double leading = rc_leading_position(own, *from.start, model->head->time + step);
+    if (!isfinite(leading))
+        return rc_fail(model, RC_DISCARD, "wheel 1 would be at %g m at %g s; use a lower speed or a "
+                                          "shorter step", leading, model->head->time + step);
     own->linear = linear;
     for (size_t i = 0; i < own->wheels; ++i) {
         const rc_way over = {.start = *from.start, .time = model->head->time, .step = step,

@@ -41,7 +41,7 @@ static void enrol(school *at, pupil *of)
     }
     *of = (pupil){.logger = !draw_once_in(from, 8), .early_return = draw_once_in(from, 2)};
     const int logging = draw_once_in(from, 2);
-    of->errors = 1;
+    of->errors = of->warnings = 1;
     of->discards = logging;
     ask(at, of, "instantiating");
     of->fmu = at->host->instantiate(name, token, folder, &of->ear, of->logger, logging,
@@ -77,20 +77,22 @@ static void dismiss(school *at, pupil *of)
 
 static void choose_log(school *at, pupil *of)
 {
-    static const char *const known[] = {"logStatusDiscard", "logStatusError"};
+    static const char *const known[] = {"logStatusDiscard", "logStatusError",
+                                        "logStatusWarning"};
     draw *from = &at->draw;
     char *text = draw_text(from);
     const size_t count = draw_below(from, 4);
     const int on = !draw_once_in(from, 3), missing = draw_once_in(from, 8);
     const char **names = exact(count, sizeof *names);
-    int discards = count == 0, errors = count == 0;
+    int discards = count == 0, errors = count == 0, warnings = count == 0;
     unsigned right = right_in(of, ANY);
     for (size_t i = 0; i < count; ++i) {
-        const size_t chosen = draw_below(from, 12);
-        names[i] = chosen < 10 ? known[chosen % 2] : chosen == 10 ? NULL : text;
-        discards |= chosen < 10 && chosen % 2 == 0;
-        errors |= chosen < 10 && chosen % 2 == 1;
-        if (chosen >= 10)
+        const size_t chosen = draw_below(from, 14);
+        names[i] = chosen < 12 ? known[chosen % 3] : chosen == 12 ? NULL : text;
+        discards |= chosen < 12 && chosen % 3 == 0;
+        errors |= chosen < 12 && chosen % 3 == 1;
+        warnings |= chosen < 12 && chosen % 3 == 2;
+        if (chosen >= 12)
             right = MAY_ERROR;
     }
     if (missing && count > 0)
@@ -101,6 +103,7 @@ static void choose_log(school *at, pupil *of)
     if (given == OK && of->fmu != NULL) {
         of->discards = discards ? on : of->discards;
         of->errors = errors ? on : of->errors;
+        of->warnings = warnings ? on : of->warnings;
     }
     judge(at, of, given, right);
     free(names);

@@ -24,11 +24,15 @@ static int is_plain_format(const char *message)
 
 void ear_hear(ear *heard, answer status, const char *category, const char *message, int format)
 {
-    const char *due = status == DISCARD ? "logStatusDiscard" : "logStatusError";
+    const char *due = status == DISCARD   ? "logStatusDiscard"
+                      : status == WARNING ? "logStatusWarning"
+                                          : "logStatusError";
     if (status == ERROR)
         ++heard->errors;
     else if (status == DISCARD)
         ++heard->discards;
+    else if (status == WARNING)
+        ++heard->warnings;
     else
         ++heard->others;
     if (category == NULL || strcmp(category, due) != 0 || message == NULL || message[0] == '\0' ||

@@ -15,7 +15,7 @@ typedef enum { OK, WARNING, DISCARD, ERROR, FATAL, PENDING } answer; /* as in bo
 
 /* What an instance's logger heard. */
 typedef struct {
-    unsigned errors, discards, others;
+    unsigned errors, discards, warnings, others;
     int bad; /* a NULL, an empty or an unescaped sentence, a wrong category */
 } ear;
 

@@ -32,11 +32,11 @@ void judge(school *at, pupil *of, answer given, unsigned right)
         blame(at, "the answer %d is none", (int)given);
     ++at->answers[given];
     if (of->fmu != NULL && of->is.tainted)
-        right |= MAY_OK | MAY_DISCARD | MAY_ERROR;
+        right |= MAY_OK | MAY_DISCARD | MAY_ERROR | MAY_WARN;
     if (!(right & 1u << given))
         blame(at, "answered %s in phase %d (touched %d)", names[given], (int)of->is.phase,
               of->is.touched);
-    if (of->ear.bad || of->ear.others > 0 || (!of->logger && of->ear.errors + of->ear.discards > 0))
+    if (of->ear.bad || of->ear.others > 0 || (!of->logger && of->ear.errors + of->ear.discards + of->ear.warnings > 0))
         blame(at, "the log has what does not belong there");
     if (of->fmu == NULL)
         return;
@@ -44,6 +44,8 @@ void judge(school *at, pupil *of, answer given, unsigned right)
         blame(at, "%u errors in the log after %s", of->ear.errors, names[given]);
     if (of->ear.discards != (given == DISCARD && of->logger && of->discards))
         blame(at, "%u discards in the log after %s", of->ear.discards, names[given]);
+    if (of->ear.warnings > (given == OK && of->warnings && (right & MAY_WARN)))
+        blame(at, "%u warnings in the log after %s", of->ear.warnings, names[given]);
 }
 
 unsigned right_in(const pupil *of, unsigned phases)

@@ -18,6 +18,7 @@
 #define MAY_OK (1u << OK)
 #define MAY_DISCARD (1u << DISCARD)
 #define MAY_ERROR (1u << ERROR)
+#define MAY_WARN (1u << 8) /* in the log, after OK; no instance answers WARNING */
 
 typedef enum { CREATED = 1, INITIALISING = 2, STEPPING = 4, TERMINATED = 8 } phase;
 #define RUNNING (CREATED | INITIALISING | STEPPING)
@@ -37,7 +38,7 @@ typedef struct {
     void *fmu;
     ear ear;
     int logger;
-    int errors, discards; /* whether these categories are logged */
+    int errors, discards, warnings; /* whether these categories are logged */
     int early_return;
     unsigned born; /* number of the instance, for states */
     knowledge is;
