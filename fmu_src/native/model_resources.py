@@ -72,25 +72,26 @@ def track_resource(
     return pack(sections | _modes(reduced, half) | start_values(variables, fixed))
 
 
-def vehicle_resource(*, wheels: int) -> bytes:
+def vehicle_resource(*, wheels: int, bogies: int = 1) -> bytes:
     """Resource of a vehicle; all of its parameters stay parameters of the FMU."""
-    return _wheels_resource(b"Vehicle", wheels, [*declare_vehicle(wheels), LINEAR_INPUTS])
+    variables = [*declare_vehicle(wheels, bogies=bogies), LINEAR_INPUTS]
+    return _wheels_resource(b"Vehicle", (wheels, bogies), variables)
 
 
-def masses_resource(*, wheels: int) -> bytes:
+def masses_resource(*, wheels: int, bogies: int = 1) -> bytes:
     """Resource of wheel masses; all of their parameters stay parameters of the FMU."""
-    return _wheels_resource(b"Masses", wheels, declare_masses(wheels))
+    return _wheels_resource(b"Masses", (wheels, bogies), declare_masses(wheels, bogies=bogies))
 
 
 def _declare_track(structure: TrackParameters, *, wheels: int, gauges: int) -> list[Variable]:
     return [*declare_track(structure, wheels=wheels, gauges=gauges), LINEAR_INPUTS]
 
 
-def _wheels_resource(model: bytes, wheels: int, variables: Sequence[Variable]) -> bytes:
-    """Resource of a model of which nothing is fixed but the number of wheels."""
+def _wheels_resource(model: bytes, size: tuple[int, int], variables: Sequence[Variable]) -> bytes:
+    """Resource of a model of which nothing is fixed but the numbers of wheels and bogies."""
     sections: dict[str, Section] = {
         "model": model,
-        "structure": np.array([wheels], dtype=np.int64),
+        "structure": np.array(size, dtype=np.int64),
     }
     return pack(sections | start_values(variables, {}))
 

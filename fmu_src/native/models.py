@@ -151,33 +151,33 @@ def native_track(
     )
 
 
-def native_vehicle(*, wheels: int) -> NativeModel:
-    """Vehicle with so many wheels; all of its parameters stay parameters."""
+def native_vehicle(*, wheels: int, bogies: int = 1) -> NativeModel:
+    """Vehicle with so many wheels and bogies; all of its parameters stay parameters."""
     return NativeModel(
         kind="vehicle",
         name="Vehicle",
-        description="Moving wheel masses in Hertzian contact with the rail, with a wheel flat",
-        variables=(*declare_vehicle(wheels), LINEAR_INPUTS),
-        structure={"wheels": wheels},
+        description="Moving vehicle in Hertzian contact with the rail, with a wheel flat",
+        variables=(*declare_vehicle(wheels, bogies=bogies), LINEAR_INPUTS),
+        structure={"wheels": wheels, "bogies": bogies},
         ports=_ports(wheels, FORCE_PORT),
         usual=True,
         switches=True,
-        make_resource=partial(vehicle_resource, wheels=wheels),
+        make_resource=partial(vehicle_resource, wheels=wheels, bogies=bogies),
     )
 
 
-def native_masses(*, wheels: int) -> NativeModel:
-    """So many wheel masses for a track that finds their contact forces."""
+def native_masses(*, wheels: int, bogies: int = 1) -> NativeModel:
+    """Vehicle with so many wheels and bogies for a track that finds their contact forces."""
     return NativeModel(
         kind="masses",
         name="Masses",
-        description="Moving wheel masses under given contact forces, in any number of bogies",
-        variables=tuple(declare_masses(wheels)),
-        structure={"wheels": wheels},
+        description="Moving vehicle under given contact forces, in any number of bogies",
+        variables=tuple(declare_masses(wheels, bogies=bogies)),
+        structure={"wheels": wheels, "bogies": bogies},
         ports=_ports(wheels, MOTION_PORT),
         usual=True,
         switches=False,
-        make_resource=partial(masses_resource, wheels=wheels),
+        make_resource=partial(masses_resource, wheels=wheels, bogies=bogies),
     )
 
 

@@ -1,4 +1,4 @@
-"""Flat, irregularity and speed from the parameters of an FMU; tables are read from their files."""
+"""Flat, irregularity, offsets and speed from the parameters of an FMU, tables from files."""
 
 from __future__ import annotations
 
@@ -19,6 +19,11 @@ def make_flat(parameters: Mapping[str, Any]) -> tuple[FlatParameters, WheelProfi
     shape, table = _flat_shape(parameters["flat.shape"])
     values = {name: parameters[f"flat.{name}"] for name, _, _ in FLAT}
     return FlatParameters(shape=shape, **values), table
+
+
+def wheel_offsets(parameters: Mapping[str, Any], wheels: int) -> tuple[float, ...]:
+    """How far each wheel runs behind the first [m]."""
+    return (0.0, *(parameters[f"wheel[{i}].offset"] for i in range(2, wheels + 1)))
 
 
 def speed_law(parameters: Mapping[str, Any]) -> ConstantSpeed | SpeedTable:

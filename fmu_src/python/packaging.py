@@ -35,7 +35,13 @@ SHARED = (
     "variables.py",
 )
 TRACK_MODULES = ("track_slave.py", "track_variables.py", "track_making.py", "basis_cache.py")
-VEHICLE_MODULES = ("vehicle_slave.py", "vehicle_variables.py", "excitation.py")
+VEHICLE_MODULES = (
+    "vehicle_slave.py",
+    "vehicle_variables.py",
+    "suspension_variables.py",
+    "suspended.py",
+    "excitation.py",
+)
 LIBRARIES = {"linux64": ".so", "win64": ".dll"}  # what pythonfmu provides
 
 

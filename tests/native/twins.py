@@ -35,6 +35,13 @@ ORDER = {
     "contact_force": 1e5,
     "force_change": 1e5,
     "velocity": 0.1,
+    "displacement": 1e-4,
+    "bogie_displacement": 1e-4,
+    "bogie_pitch": 1e-4,
+    "bogie_acceleration": 1.0,
+    "car_displacement": 1e-4,
+    "car_pitch": 1e-5,
+    "car_acceleration": 0.1,
 }
 """What differences are compared with where the values are smaller, as those of a track at rest."""
 
@@ -169,10 +176,14 @@ class TrackPair:
 class VehiclePair:
     """Both vehicles; the numpy one is made as the Python FMU makes it."""
 
-    def __init__(self, native, *, linear=True, values=()):
-        self.linear = linear
-        self.native = native("vehicle", linear_inputs=linear)
-        slave = VehicleSlave(instance_name="twin")
+    def __init__(self, native, resource=None, *, wheels=2, bogies=1, linear=True, values=()):
+        class Slave(VehicleSlave):
+            pass
+
+        Slave.wheels, Slave.bogies = wheels, bogies
+        self.linear, self.wheels, self.bogies = linear, wheels, bogies
+        self.native = native("vehicle", resource, linear_inputs=linear)
+        self.slave = slave = Slave(instance_name="twin")
         parameters = slave._parameters | dict(values)
         for name, value in dict(values).items():
             self.native.set_one(name, value)
@@ -192,11 +203,42 @@ class VehiclePair:
 
     def copy_state(self, state):
         self.numpy.state = state
-        block = self.native.state
-        block[-len(state) :] = state
-        block[0] = state[1]
-        self.native.state = block
+        put_dynamic(self.native, 2 + 2 * (self.wheels + coordinates(self)), state)
 
     def outputs(self):
         for name in VEHICLE_GROUPS:
             yield name, getattr(self.numpy, name), self.native.group(f"wheel[#].{name}")
+        yield from body_outputs(self)
+
+
+BODY_GROUPS = {
+    "bogie_displacement": "bogie[#].displacement",
+    "bogie_pitch": "bogie[#].pitch",
+    "bogie_acceleration": "bogie[#].acceleration",
+    "car_displacement": "car.displacement",
+    "car_pitch": "car.pitch",
+    "car_acceleration": "car.acceleration",
+    "primary_force": "primary[#].force",
+    "secondary_force": "secondary[#].force",
+}
+
+
+def body_outputs(pair):
+    """Name, numpy's and the native values of the bodies above the wheels."""
+    for name, group in BODY_GROUPS.items():
+        yield name, np.array(pair.slave.read_model(pair.numpy, name)), pair.native.group(group)
+
+
+def coordinates(pair):
+    """Number of coordinates of a vehicle."""
+    return 2 * (pair.wheels + pair.bogies + 1)
+
+
+def put_dynamic(native, size, state):
+    """Set the first of so many dynamic values, which end the block, and the time."""
+    block = native.state
+    first = len(block) - size
+    block[first:] = 0.0
+    block[first : first + len(state)] = state
+    block[0] = state[1]
+    native.state = block

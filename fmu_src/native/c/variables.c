@@ -57,6 +57,19 @@ rc_status rc_require_positive(rc_model *model, size_t group, const char *unit, c
                    model->groups[group].name, value, unit, remedy);
 }
 
+rc_status rc_take_offsets(rc_model *model, size_t group, double *offsets)
+{
+    offsets[0] = 0.0;
+    for (size_t i = 1; i < model->dimensions[RC_WHEELS]; ++i) {
+        offsets[i] = rc_values(model, group)[i - 1];
+        if (!isfinite(offsets[i]))
+            return rc_fail(model, RC_ERROR, "offset of wheel %zu is %g m; it must be a finite "
+                                            "number: give its way behind wheel 1", i + 1,
+                           offsets[i]);
+    }
+    return RC_OK;
+}
+
 static const char *type_name(rc_type type)
 {
     static const char *const names[] = {"Real", "Integer", "Boolean", "String"};
