@@ -9,7 +9,7 @@ import xarray as xr
 
 from .run_record import ATTEMPT_COLUMNS
 from .scenario_file import to_toml
-from .signals import COMPRESSION, FORWARDS, SIGNALS
+from .signals import COMPRESSION, FORWARDS, signals_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -21,12 +21,15 @@ if TYPE_CHECKING:
 
 
 def count(scenario: Scenario) -> dict[Dimension, int]:
-    """Return how many wheels, sleepers and gauges a passage has."""
-    return {
+    """Return how many wheels, sleepers and gauges a passage has, and bogies if they may move."""
+    numbers: dict[Dimension, int] = {
         "wheel": scenario.vehicle.wheels,
         "sleeper": scenario.track.bays - 1,
         "gauge": len(scenario.gauge_positions),
     }
+    if scenario.vehicle.is_suspended:
+        numbers |= {"bogie": scenario.vehicle.bogies, "car": 1}
+    return numbers
 
 
 def assemble(
@@ -46,7 +49,7 @@ def assemble(
     times : ndarray, shape (n,)
         Accepted times [s].
     series : mapping of str to ndarray
-        Every one of `SIGNALS` by name, of shape (n, wheels), (n, sleepers) or (n, gauges).
+        Every one of `signals_of` the scenario by name, of shape (n, wheels), (n, sleepers) etc.
     attempts : mapping of str to ndarray
         The columns `ATTEMPT_COLUMNS` of the step log, each of shape (m,); causes are texts.
     attributes : mapping
@@ -55,8 +58,8 @@ def assemble(
     Returns
     -------
     xarray.Dataset
-        Dimensions ``time``, ``wheel``, ``sleeper``, ``gauge`` and ``attempt``; units, long name and
-        sign on every variable.
+        Dimensions ``time``, ``wheel``, ``sleeper``, ``gauge`` and ``attempt``, with a suspended
+        vehicle ``bogie`` and ``car``; units, long name and sign on every variable.
     """
     variables = {
         signal.name: (
@@ -64,7 +67,7 @@ def assemble(
             series[signal.name].astype(bool if signal.name == "in_contact" else float),
             signal.attributes,
         )
-        for signal in SIGNALS
+        for signal in signals_of(scenario)
     }
     flat = series["wheel_position"][:, scenario.flat.wheel - 1]
     return xr.Dataset(

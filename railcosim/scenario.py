@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from .errors import InputError
 from .master_section import Master
 from .sections import DEFAULT_SPEED_KMH, Flat, Run, Track, Vehicle
+from .suspension_section import Suspension, check_bodies
 
 BEHIND_MIDSPAN = 0.025
 """How far behind the middle of its bay the flat's centre meets the rail by default [m]."""
@@ -21,7 +22,7 @@ class Scenario:
 
     Attributes
     ----------
-    track, vehicle, flat, run, master
+    track, vehicle, suspension, flat, run, master
         The sections of the scenario file.
 
     Raises
@@ -32,11 +33,13 @@ class Scenario:
 
     track: Track = field(default_factory=Track)
     vehicle: Vehicle = field(default_factory=Vehicle)
+    suspension: Suspension = field(default_factory=Suspension)
     flat: Flat = field(default_factory=Flat)
     run: Run = field(default_factory=Run)
     master: Master = field(default_factory=Master)
 
     def __post_init__(self) -> None:
+        check_bodies(self.vehicle, self.suspension)
         self._check_flat()
         self._check_start_of_track()
         self._check_end_of_track()
@@ -52,7 +55,7 @@ class Scenario:
     @property
     def start_position(self) -> float:
         """Position of the leading wheel at t = 0 [m]."""
-        ahead = (self.flat.wheel - 1) * self.vehicle.axle_base
+        ahead = self.vehicle.offsets[self.flat.wheel - 1]
         return self.flat_position - self.run.approach + ahead
 
     @property
@@ -107,7 +110,7 @@ class Scenario:
     def _check_start_of_track(self) -> None:
         """Refuse a run that starts with a wheel before the track."""
         wheel = self.vehicle.wheels
-        start = self.start_position - (wheel - 1) * self.vehicle.axle_base
+        start = self.start_position - self.vehicle.offsets[-1]
         if start >= 0.0:
             return
         approach = _rounded_down(self.run.approach + start)

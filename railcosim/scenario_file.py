@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from .errors import InputError
 from .fields import holds_file
 from .master_section import Master
+from .presets import PRESETS
 from .scenario import Scenario
 from .sections import Flat, Run, Track, Vehicle
+from .suspension_section import Suspension
 from .toml_text import parse_toml, read_text
 
 if TYPE_CHECKING:
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 SECTIONS: Mapping[str, type[Any]] = {
     "track": Track,
     "vehicle": Vehicle,
+    "suspension": Suspension,
     "flat": Flat,
     "run": Run,
     "master": Master,
@@ -118,14 +121,18 @@ def no_values() -> Values:
 
 
 def build_scenario(values: Values) -> Scenario:
-    """Check the keys of a scenario as a whole.
+    """Check the keys of a scenario as a whole, above those of its preset if it names one.
 
     Raises
     ------
     InputError
         For a value that does not fit.
     """
-    return Scenario(**{name: kind(**values[name]) for name, kind in SECTIONS.items()})
+    preset = PRESETS.get(str(values["vehicle"].get("preset")))
+    usual: Mapping[str, Mapping[str, Any]] = preset.keys() if preset else {}
+    return Scenario(
+        **{name: kind(**{**usual.get(name, {}), **values[name]}) for name, kind in SECTIONS.items()}
+    )
 
 
 def put_all(values: Values, tables: Mapping[str, Any], folder: Path) -> None:

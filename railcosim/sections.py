@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
+from vehicle_fmu.suspension_parameters import GRAVITY
+
 from .errors import InputError
 from .fields import Choice, CsvFile, Number, check_fields, is_csv
-
-GRAVITY = 9.81
-"""Gravitational acceleration that turns an axle load into a force [m/s2]."""
+from .presets import PRESETS
 
 MOST_DEGREES_OF_FREEDOM = 10_000
 """Size of track whose modes fit in a few gigabytes of memory."""
@@ -101,22 +101,28 @@ class Track:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Vehicle:
-    """Keys of ``[vehicle]``: moving masses, each half a wheelset under half an axle load.
+    """Keys of ``[vehicle]``: wheels, each half a wheelset under half an axle load.
 
     Attributes
     ----------
+    model : str
+        ``masses``: nothing but their load is above the wheels; ``suspended``: bogie frames and a
+        car body, as ``[suspension]`` has them.
+    preset : str, optional
+        A vehicle of the literature, one of `presets.PRESETS`, in a scenario file or override: the
+        keys that these do not give take its values.
     speed_kmh : float, optional
         Constant speed [km/h]; 40 where neither a speed nor a table is given.
     speed_table : str
         CSV file with the columns time [s] and speed [m/s], instead of ``speed_kmh``.
-    wheels : int
-        Number of wheels, ``axle_base`` apart.
+    wheels, bogies : int
+        Number of wheels, and of bogies with equal shares of them.
     wheel_mass : float
         Half of a wheelset's mass [kg].
     axle_load_t : float
         Axle load [t]; half of its weight is the whole static force of a wheel on the rail.
-    axle_base : float
-        Distance of neighbouring wheels [m].
+    axle_base, bogie_distance : float
+        Distance of neighbouring wheels of a bogie, and of the centres of neighbouring bogies [m].
     wheel_radius : float
         Wheel radius [m].
     hertz_coefficient : float
@@ -128,10 +134,14 @@ class Vehicle:
 
     speed_kmh: Annotated[float | None, Number(unit="km/h", at_least=0.1, at_most=1000.0)] = None
     speed_table: Annotated[str, CsvFile()] = ""
+    model: Annotated[str, Choice(("masses", "suspended"))] = "masses"
+    preset: Annotated[str | None, Choice(tuple(PRESETS))] = None
     wheels: Annotated[int, Number(unit="wheels", at_least=1, at_most=100)] = 2
+    bogies: Annotated[int, Number(unit="bogies", at_least=1, at_most=100)] = 1
     wheel_mass: Annotated[float, Number(unit="kg", above=0.0)] = 592.5
     axle_load_t: Annotated[float, Number(unit="t", at_least=0.1, at_most=100.0)] = 24.0
     axle_base: Annotated[float, Number(unit="m", above=0.0)] = 1.8
+    bogie_distance: Annotated[float, Number(unit="m", above=0.0)] = 19.0
     wheel_radius: Annotated[float, Number(unit="m", above=0.0)] = 0.45
     hertz_coefficient: Annotated[float, Number(unit="N/m1.5", above=0.0)] = 9.17e10
     rail_irregularity: Annotated[str, CsvFile()] = ""
@@ -143,6 +153,26 @@ class Vehicle:
                 f"vehicle.speed_kmh = {self.speed_kmh:g} and vehicle.speed_table = "
                 f"{self.speed_table!r} are both given: leave one of them out"
             )
+        if self.wheels % self.bogies:
+            raise InputError(
+                f"vehicle.wheels is {self.wheels}, which {self.bogies} bogies cannot share: make "
+                "it a multiple of vehicle.bogies"
+            )
+
+    @property
+    def is_suspended(self) -> bool:
+        """Whether there are bodies above the wheels."""
+        return self.model == "suspended"
+
+    @property
+    def offsets(self) -> tuple[float, ...]:
+        """How far each wheel runs behind the first [m]."""
+        share = self.wheels // self.bogies
+        return tuple(
+            j * self.bogie_distance + i * self.axle_base
+            for j in range(self.bogies)
+            for i in range(share)
+        )
 
     @property
     def static_wheel_load(self) -> float:

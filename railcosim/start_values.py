@@ -9,6 +9,7 @@ from fmu_src.native.models import TRACK_CONSTANTS
 
 from .motion import initial_speed
 from .sections import Track
+from .suspension_section import Suspension
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -76,10 +77,25 @@ def vehicle_values(
         "wheel_mass": vehicle.wheel_mass,
         "static_wheel_load": vehicle.static_wheel_load,
     }
-    if contact == "vehicle":
-        return {**motion, "axle_base": vehicle.axle_base, **_contact_values(scenario)}
-    offsets = {f"wheel[{k + 1}].offset": k * vehicle.axle_base for k in range(1, vehicle.wheels)}
-    return {**motion, **offsets}
+    offsets = {
+        f"wheel[{k}].offset": offset for k, offset in enumerate(vehicle.offsets[1:], start=2)
+    }
+    values = {**motion, **offsets, **_suspension_values(scenario)}
+    return values if contact == "track" else values | _contact_values(scenario)
+
+
+def _suspension_values(scenario: Scenario) -> dict[str, Value]:
+    """Return the parameters of the bodies above the wheels; all bogies are alike."""
+    values: dict[str, Value] = {"model": scenario.vehicle.model}
+    for item in fields(Suspension):
+        value = getattr(scenario.suspension, item.name)
+        part, _, name = item.name.partition("_")
+        if part == "bogie":
+            bogies = range(1, scenario.vehicle.bogies + 1)
+            values |= {f"bogie[{j}].{name}": value for j in bogies}
+        else:
+            values[f"{part}.{name}"] = value
+    return values
 
 
 def _contact_values(scenario: Scenario) -> dict[str, Value]:
