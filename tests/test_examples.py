@@ -10,8 +10,10 @@ from build_fmus import ensure_fmus
 from railcosim.builds import build_for
 from railcosim.cosim import run_system
 from railcosim.cosim_options import CosimOptions
+from railcosim.passage import run_passage
 from railcosim.passage_package import ensure_package
 from railcosim.scenario import Scenario
+from railcosim.scenario_file import read_scenario
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 TOLERANCES = EXAMPLES / "baselines" / "tolerances.toml"
@@ -75,3 +77,12 @@ def test_passage_as_a_system(tmp_path, baseline):
         time=np.linspace(0.0, SHORT, 1001)
     )
     baseline.check(even.drop_attrs(deep=False), TOLERANCES, name="passage_as_a_system")
+
+
+def test_coach():
+    """A flat under a coach: 94.71 kN at 25 us with contact on the vehicle, and on the track."""
+    passage = run_passage(read_scenario(EXAMPLES / "coach.toml"), fmus="native")
+    assert float(passage["contact_force"].max()) == pytest.approx(94.71e3, rel=1e-3)
+    assert float(passage["bogie_acceleration"].max()) == pytest.approx(0.380, rel=5e-3)
+    # the strike of 18 kN for some milliseconds, on 44 t: the car body does not feel it
+    assert float(abs(passage["car_acceleration"]).max()) < 0.005
