@@ -120,16 +120,20 @@ def test_passage_of_the_vehicle_over_a_flat(vehicle_pair, sized, kind):
 
 
 @pytest.mark.parametrize("kind", sorted(KINDS))
-def test_masses_go_on_bit_for_bit_from_a_serialised_state(native, sized, kind):
+@pytest.mark.parametrize(
+    ("model", "group", "scale"),
+    [("masses", "contact_force", LOAD), ("vehicle", "rail_displacement", 1e-4)],
+)
+def test_all_goes_on_bit_for_bit_from_a_serialised_state(native, sized, kind, model, group, scale):
     def go_on(model):
         for k in range(20):
-            model.set_group("wheel[#].contact_force", LOAD * random[k])
+            model.set_group(f"wheel[#].{group}", scale * random[k])
             model.step(model.time, 1e-4)
         outputs = [group.name.decode() for group in model.groups if group.causality == 3]
         return b"".join(model.group(name).tobytes() for name in outputs)
 
     random = np.random.default_rng(8).uniform(0.0, 2.0, (20, 4))
-    one, other = native("masses", sized["masses"]), native("masses", sized["masses"])
+    one, other = native(model, sized[model]), native(model, sized[model])
     for name, value in KINDS[kind].items():
         one.set_one(name, value)
     one.enter()

@@ -62,6 +62,17 @@ def test_both_sides_of_the_contacts_move_the_bodies_alike(suspended):
         assert largest(theirs - ours) < 0.01 * largest(ours), name
 
 
+@pytest.mark.parametrize("contact", ["vehicle", "track"])
+def test_python_fmus_move_the_bodies_as_native_ones_do(contact):
+    keys = ("run.approach=0.08", "run.departure=0.1", "suspension.tread_mass=200",
+            "suspension.tread_stiffness=5e8", SUSPENDED)  # fmt: skip
+    ours = native(*keys, contact=contact)
+    theirs = run_passage(read_scenario(None, (*SHORT, *keys)), fmus="python", contact=contact)
+    for name in ("contact_force", "primary_force", "bogie_acceleration", "car_displacement"):
+        scale = largest(ours[name])
+        assert largest(ours[name].to_numpy() - theirs[name].to_numpy()) < 1e-6 * scale, name
+
+
 def test_a_flexible_wheelset_softens_the_strike(masses):
     """Less mass strikes first; at a stiffness of nearly a rigid wheelset hardly."""
     keys = ("suspension.tread_mass=300", "suspension.tread_damping=1e3")
