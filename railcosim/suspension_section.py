@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
+from vehicle_fmu.suspended_masses import SUBSTEP
 from vehicle_fmu.suspension import Suspension as CoupledBodies
 from vehicle_fmu.suspension_parameters import (
     PRIMARY,
@@ -92,7 +93,7 @@ def check_bodies(vehicle: Vehicle, suspension: Suspension) -> None:
             tread=_tread(suspension),
             bogies=vehicle.bogies,
             bodies=_bodies(suspension, vehicle.bogies) if vehicle.is_suspended else None,
-        )
+        ).check_substep(SUBSTEP)
     except ValueError as error:
         raise InputError(f"vehicle and suspension do not fit together: {error}") from error
 

@@ -9,7 +9,7 @@ from .masses import Masses, MassesParameters, check_forces
 from .speed import SpeedLaw
 from .suspended_motion import advance
 from .suspension import Suspension
-from .validation import FloatArray, require_position, require_step
+from .validation import FloatArray, require_position, require_positive, require_step
 
 SUBSTEP = 2e-5
 """Longest internal integration step, where nothing is said [s]."""
@@ -29,6 +29,11 @@ class SuspendedMasses(Masses):
         Of as many wheels, with the same masses and loads.
     substep : float
         Longest internal integration step [s].
+
+    Raises
+    ------
+    ValueError
+        If the substep is not above zero, or too long for the suspension.
     """
 
     def __init__(
@@ -40,6 +45,8 @@ class SuspendedMasses(Masses):
         substep: float = SUBSTEP,
     ) -> None:
         super().__init__(parameters, speed=speed)
+        require_positive("substep", substep, "s", "2e-5 resolves a flexible wheelset")
+        suspension.check_substep(substep)
         self.suspension = suspension
         self._substep = substep
         n, count = suspension.wheels, len(suspension.inverse_mass)

@@ -24,6 +24,11 @@ class SuspendedVehicle(VehicleModel):
         As for `VehicleModel`.
     suspension : Suspension
         Of as many wheels, with the same masses and loads.
+
+    Raises
+    ------
+    ValueError
+        As for `VehicleModel`, or if the substep is too long for the suspension.
     """
 
     def __init__(
@@ -39,6 +44,7 @@ class SuspendedVehicle(VehicleModel):
         super().__init__(
             parameters, flat=flat, speed=speed, flat_table=flat_table, irregularity=irregularity
         )
+        suspension.check_substep(parameters.substep)
         self.suspension = suspension
         # the wheels' displacements in equilibrium; coordinates behind the wheels, and their rates
         wheels, coordinates = parameters.wheels, len(suspension.inverse_mass)

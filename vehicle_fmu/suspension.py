@@ -100,6 +100,15 @@ class Suspension:
         """Compression of every element over the coordinates, E, shape (elements, coordinates)."""
         return self._elongation.copy()
 
+    def check_substep(self, substep: float) -> None:
+        """Raise ValueError unless a substep [s] resolves every element between its bodies."""
+        fastest = self._law.fastest((self._elongation**2) @ self.inverse_mass)
+        if fastest * substep > 1.0:
+            raise ValueError(
+                f"a spring or damper of the suspension acts within {1.0 / fastest:g} s, the "
+                f"substep is {substep:g} s; make it shorter, or springs and dampers softer"
+            )
+
     def acceleration(self, q: FloatArray, v: FloatArray, push: FloatArray) -> FloatArray:
         """Return the accelerations [m/s2] and [rad/s2], shape (coordinates,).
 
@@ -174,6 +183,12 @@ class _Law:
         met = np.maximum(compression - self._clearance, 0.0) - self._at_rest
         force: FloatArray = self._stiffness * compression + self._stop * met + damping * rate
         return force
+
+    def fastest(self, mobility: FloatArray) -> float:
+        """Return the largest rate [1/s] of an element between bodies of these inverse masses."""
+        vibration = np.sqrt((self._stiffness + self._stop) * mobility)
+        decay = np.maximum(self._compressing, self._extending) * mobility
+        return float(max(vibration.max(initial=0.0), decay.max(initial=0.0)))
 
     def energy(self, compression: FloatArray) -> float:
         """Return the work against springs and stops from static equilibrium [J]."""

@@ -192,6 +192,13 @@ def test_derivatives_by_all_wheels(native, sized, kind, kinks, linear):
         ({"tread.mass": 592.5, "tread.stiffness": 1e9}, "tread.mass is 592.5 kg; it must be below"),
         ({"tread.mass": 100.0}, "tread.stiffness is 0 N/m"),
         ({"tread.mass": -1.0}, "tread.mass is -1 kg"),
+        (
+            {"tread.mass": 250.0, "tread.stiffness": 1e12},
+            "acts within 1.20214e-05 s, the substep is",
+        ),
+        ({"model": "suspended", "primary.damping": 3e7}, "make it shorter, or springs and dampers"),
+        ({"model": "suspended", "secondary.stop_stiffness": 1e13}, "or springs and dampers softer"),
+        ({"model": "suspended", "substep": 0.1}, "acts within .* s, the substep is 0.1 s"),
     ],
 )
 def test_vehicles_that_cannot_be_are_refused_alike(

@@ -81,6 +81,30 @@ static void accelerate(const rc_suspension *own, const double *q, const double *
         acceleration[c] *= own->inverse_mass[c];
 }
 
+static double rate_of(const rc_element *element, double mobility)
+{
+    return fmax(sqrt((element->stiffness + element->stop) * mobility),
+                fmax(element->compressing, element->extending) * mobility);
+}
+
+double rc_fastest(const rc_suspension *own)
+{
+    const size_t n = own->wheels, m = own->bogies;
+    const double *inverse = own->inverse_mass, *frame = inverse + 2 * n, *car = frame + 2 * m;
+    double fastest = own->flexible ? rate_of(&own->tread, inverse[0] + inverse[n]) : 0.0;
+    for (size_t i = 0; i < n && own->suspended; ++i) {
+        const size_t j = bogie_of(own, i);
+        const double lower = inverse[own->flexible ? n + i : i];
+        const double upper = frame[j] + own->lever[i] * own->lever[i] * frame[m + j];
+        fastest = fmax(fastest, rate_of(&own->primary, lower + upper));
+    }
+    for (size_t j = 0; j < m && own->suspended; ++j) {
+        const double upper = car[0] + own->bogie_lever[j] * own->bogie_lever[j] * car[1];
+        fastest = fmax(fastest, rate_of(&own->secondary, frame[j] + upper));
+    }
+    return fastest;
+}
+
 size_t rc_substeps(double duration, double longest)
 {
     return (size_t)fmax(1.0, ceil(duration / longest * (1.0 - SUBSTEP_ROUNDING)));

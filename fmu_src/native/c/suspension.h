@@ -84,9 +84,12 @@ rc_status rc_open_suspension(rc_model *model, rc_suspension *own);
 void rc_free_suspension(rc_suspension *own);
 
 /* Takes the parameters of the model, whose groups begin at `first`; may be called again. `offsets`
- * are those of all wheels. */
+ * are those of all wheels. A substep that does not resolve every element is refused. */
 rc_status rc_make_suspension(rc_model *model, rc_suspension *own, size_t first, double wheel_mass,
-                             double load, const double *offsets);
+                             double load, const double *offsets, double substep);
+
+/* The largest rate of an element between its bodies [1/s]. */
+double rc_fastest(const rc_suspension *own);
 
 /* Into how many equal substeps, none above the longest, a duration is divided. */
 size_t rc_substeps(double duration, double longest);

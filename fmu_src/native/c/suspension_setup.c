@@ -146,8 +146,8 @@ static void take_levers(rc_suspension *own, const double *offsets)
         own->bogie_lever[j] = middle - own->bogie_lever[j];
 }
 
-rc_status rc_make_suspension(rc_model *model, rc_suspension *own, size_t first, double wheel_mass,
-                             double load, const double *offsets)
+static rc_status take_all(rc_model *model, rc_suspension *own, size_t first, double wheel_mass,
+                          double load, const double *offsets)
 {
     const char *kind = rc_text(model, first + RC_VEHICLE_KIND);
     own->suspended = strcmp(kind, "suspended") == 0;
@@ -169,4 +169,17 @@ rc_status rc_make_suspension(rc_model *model, rc_suspension *own, size_t first, 
         return RC_ERROR;
     take_levers(own, offsets);
     return take_masses(model, own, first, wheel_mass, load);
+}
+
+rc_status rc_make_suspension(rc_model *model, rc_suspension *own, size_t first, double wheel_mass,
+                             double load, const double *offsets, double substep)
+{
+    if (take_all(model, own, first, wheel_mass, load, offsets) != RC_OK)
+        return RC_ERROR;
+    const double fastest = rc_fastest(own);
+    if (fastest * substep > 1.0)
+        return rc_fail(model, RC_ERROR, "a spring or damper of the suspension acts within %g s, the "
+                                        "substep is %g s; make it shorter, or springs and dampers "
+                                        "softer", 1.0 / fastest, substep);
+    return RC_OK;
 }

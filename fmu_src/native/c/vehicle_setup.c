@@ -73,7 +73,7 @@ rc_status rc_prepare_vehicle(rc_model *model)
     own->substep = *rc_values(model, SUBSTEP);
     model->linear = *rc_values(model, LINEAR_INPUTS) != 0.0;
     if (rc_make_suspension(model, &own->suspension, SUSPENSION, own->wheel.mass, own->wheel.load,
-                           own->offsets) != RC_OK)
+                           own->offsets, own->substep) != RC_OK)
         return RC_ERROR;
     if (!rc_make_motion(&own->motion, *rc_values(model, SPEED), rc_text(model, SPEED_TABLE),
                         model->message, RC_MESSAGE_SIZE) ||
