@@ -1,4 +1,4 @@
-"""The command line: `railcosim run`, `cosim`, `replay`, `build` and `check`."""
+"""The command line: `railcosim run`, `verify`, `cosim`, `replay`, `build` and `check`."""
 
 import signal
 import sys
@@ -13,6 +13,7 @@ from .commands.cosim import cosim
 from .commands.endings import say
 from .commands.replay import replay
 from .commands.run import run
+from .commands.verify import verify
 
 USAGE_ERROR: Any = typer.BadParameter.__mro__[1]
 """What typer raises for a wrong command line; newer versions bring a click of their own."""
@@ -25,7 +26,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-for command in (run, cosim, build, replay, check):
+for command in (run, verify, cosim, build, replay, check):
     app.command()(command)
 
 

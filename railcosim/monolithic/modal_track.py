@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     Complex = NDArray[np.complex128]
 
 
+SHARE = 0.1
+"""What one mode may be wrong by in displacement, over what all of them may."""
+
+
 class ModalTrack:
     """The track of Eq. (10) in modal coordinates; see `LinearTrack`.
 
@@ -44,7 +48,7 @@ class ModalTrack:
         decay, frequency = np.diag(basis.eigenvalues.real), np.diag(basis.eigenvalues.imag)
         self.matrix: Matrix = np.block([[decay, -frequency], [frequency, decay]])
         largest = np.abs(basis.modes).max(axis=0)
-        self.scale = np.tile(1.0 / largest, 2)
+        self.scale = np.tile(SHARE / largest, 2)
         self._sleeper_shape = reduced.shape[reduced.ballast_rows]
         self.sleepers = self._ports(self._sleeper_shape)
         self._pads = np.asarray(self._ports(reduced.shape[reduced.pad_rows]).output)
