@@ -43,8 +43,8 @@ def verify(
         typer.Option("--set", metavar="KEY=VALUE", help="Replace a key, as in flat.depth=1e-3."),
     ] = None,
     model: Annotated[
-        ModelName, typer.Option(help="Track of the monolith: all nodes, or modes with residual.")
-    ] = ModelName.FULL,
+        ModelName, typer.Option(help="Track of the monolith: the same modes, or all nodes.")
+    ] = ModelName.MODAL,
     fmus: Annotated[
         FmuKind | None,
         typer.Option(help="Which build of the FMUs runs; native, if it has been built, without."),
