@@ -49,5 +49,5 @@ def draw_verification(both: xr.Dataset) -> Figure:
     for axes in (above, below):
         tidy(axes)
     scenario = from_toml(both.attrs["scenario"])
-    figure.suptitle(f"{describe(scenario)}: co-simulation and {both.attrs['model']} monolith")
+    figure.suptitle(f"{describe(scenario)}\nco-simulation and {both.attrs['model']} monolith")
     return figure
