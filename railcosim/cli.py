@@ -19,6 +19,7 @@ from .commands.report import report
 from .commands.run import run
 from .commands.sweep import sweep
 from .commands.tune import tune
+from .commands.verify import verify
 
 USAGE_ERROR: Any = typer.BadParameter.__mro__[1]
 """What typer raises for a wrong command line; newer versions bring a click of their own."""
@@ -33,6 +34,7 @@ app = typer.Typer(
 
 COMMANDS = (
     run,
+    verify,
     sweep,
     cosim,
     report,
