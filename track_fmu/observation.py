@@ -54,6 +54,14 @@ class Observation:
         return velocity
 
     @cached_property
+    def rail_displacement(self) -> FloatArray:
+        """Deflection [m] and rotation [rad] of the rail nodes, in the rows of `RailPoint.rows`.
+
+        ``(2 * nodes,)``; a point is displaced by ``point.shape @ rail_displacement[point.rows]``.
+        """
+        return self._displacement(slice(self._track.ballast_rows.start))
+
+    @cached_property
     def sleeper_displacement(self) -> FloatArray:
         """Displacement of every sleeper [m], shape (supports,)."""
         return self._displacement(self._track.ballast_rows)

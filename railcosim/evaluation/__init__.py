@@ -1,0 +1,1 @@
+"""What engineers work out from the result of a passage: functions from datasets to datasets."""
