@@ -24,7 +24,9 @@ Timeout = Annotated[
     float | None,
     typer.Option(metavar="S", help="Longest answer of an FMU [s]; with --isolate, 60 without."),
 ]
-Output = Annotated[Path | None, typer.Option(metavar="FILE", help="Result: .nc, .csv or .parquet.")]
+Output = Annotated[
+    Path | None, typer.Option(metavar="FILE", help="Result: .nc, .csv, .parquet or .mat.")
+]
 Replay = Annotated[
     Path | None,
     typer.Option(
