@@ -1,4 +1,4 @@
-"""The command line: `railcosim run`, `cosim`, `replay`, `build` and `check`."""
+"""The command line: `railcosim run`, `cosim` and what is around them."""
 
 import signal
 import sys
@@ -11,6 +11,7 @@ from .commands.build import build
 from .commands.check import check
 from .commands.cosim import cosim
 from .commands.endings import say
+from .commands.evaluate import evaluate
 from .commands.replay import replay
 from .commands.run import run
 
@@ -25,7 +26,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-for command in (run, cosim, build, replay, check):
+for command in (run, evaluate, cosim, build, replay, check):
     app.command()(command)
 
 

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import xarray as xr
 
 from ..errors import InputError
+from ..run_record import programs
 from ..signals import SIGNALS
 from .gauges import gauge_histories
-from .settings import Evaluation
+from .settings import Evaluation, PartName
 from .spectrum import contact_force_spectrum
 from .supports import support_loads
 from .third_octaves import third_octaves, wavelength_bands
@@ -37,24 +38,24 @@ class Part:
     along: str
 
 
-PARTS: Mapping[str, Part] = {
-    "wheels": Part(make=lambda passage, _: wheel_loads(passage), along="wheel"),
-    "spectrum": Part(make=contact_force_spectrum, along="frequency"),
-    "third_octaves": Part(make=third_octaves, along="band_frequency"),
-    "wavelengths": Part(make=wavelength_bands, along="band_wavelength"),
-    "detector": Part(make=wheel_load_record, along="record_time"),
-    "bays": Part(make=wheel_load_record, along="bay"),
-    "gauges": Part(make=gauge_histories, along="time"),
-    "supports": Part(make=lambda passage, _: support_loads(passage), along="sleeper"),
+PARTS: Mapping[PartName, Part] = {
+    PartName.WHEELS: Part(make=lambda passage, _: wheel_loads(passage), along="wheel"),
+    PartName.SPECTRUM: Part(make=contact_force_spectrum, along="frequency"),
+    PartName.THIRD_OCTAVES: Part(make=third_octaves, along="band_frequency"),
+    PartName.WAVELENGTHS: Part(make=wavelength_bands, along="band_wavelength"),
+    PartName.DETECTOR: Part(make=wheel_load_record, along="record_time"),
+    PartName.BAYS: Part(make=wheel_load_record, along="bay"),
+    PartName.GAUGES: Part(make=gauge_histories, along="time"),
+    PartName.SUPPORTS: Part(make=lambda passage, _: support_loads(passage), along="sleeper"),
 }
-"""Parts by name."""
+"""How every part is made."""
 
 NEEDED = {signal.name for signal in SIGNALS} | {"time", "distance", "static_wheel_load"}
 """What the result of a passage holds."""
 
 
 def evaluate(
-    passage: xr.Dataset, settings: Evaluation | None = None, *, part: str | None = None
+    passage: xr.Dataset, settings: Evaluation | None = None, *, part: PartName | None = None
 ) -> xr.Dataset:
     """Evaluate the result of a passage.
 
@@ -64,18 +65,19 @@ def evaluate(
         The result, also read back from a file.
     settings : Evaluation, optional
         What the user chose.
-    part : str, optional
-        One of `PARTS`; all of them without.
+    part : PartName, optional
+        Which part; all of them without.
 
     Returns
     -------
     xarray.Dataset
-        The part, or everything together; with the scenario it belongs to.
+        The part, or everything together; with the scenario it belongs to and whether its run was
+        ``complete`` and what makes it ``unreliable``.
 
     Raises
     ------
     InputError
-        For the result of something else, a part that there is not, or a run too short.
+        For the result of something else or a run too short.
     """
     missing = sorted(NEEDED - set(map(str, passage.variables)))
     if missing or "scenario" not in passage.attrs:
@@ -83,8 +85,6 @@ def evaluate(
             f"there is no {', '.join(missing) or 'scenario'} in this result, which is no passage: "
             "evaluate what railcosim run --output FILE.nc wrote"
         )
-    if part is not None and part not in PARTS:
-        raise InputError(f"{part!r} is no part of an evaluation: choose one of {', '.join(PARTS)}")
     settings = settings or Evaluation()
     chosen = PARTS.values() if part is None else [PARTS[part]]
     made = {item.make: None for item in chosen}  # two parts are tables of the same record
@@ -96,9 +96,11 @@ def evaluate(
     )
     return found.assign_attrs(
         {
-            "Conventions": passage.attrs["Conventions"],
+            "Conventions": "CF-1.11",
             "title": "Evaluation of a passage of wheels over a discretely supported rail",
             "scenario": passage.attrs["scenario"],
-            "source": passage.attrs["source"],
+            "complete": passage.attrs["complete"],
+            "unreliable": passage.attrs["unreliable"],
+            **programs(),
         }
     )

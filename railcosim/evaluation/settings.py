@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import Annotated
 
 from ..fields import Number, check_fields
@@ -18,6 +19,19 @@ UIC60_FOOT = 0.0809
 
 Second moment of area 3038.3 cm4 over section modulus of the foot 375.5 cm3 (EN 13674-1, 60E1).
 """
+
+
+class PartName(StrEnum):
+    """Parts of an evaluation."""
+
+    WHEELS = "wheels"
+    SPECTRUM = "spectrum"
+    THIRD_OCTAVES = "third_octaves"
+    WAVELENGTHS = "wavelengths"
+    DETECTOR = "detector"
+    BAYS = "bays"
+    GAUGES = "gauges"
+    SUPPORTS = "supports"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
