@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 from build_fmus import PAIRS, FmuPaths, Structure, ensure_fmus, ensure_native_fmus, folder_of
 from fmu_src.native.compiler import CompilationError
+from fmu_src.native.models import native_track
 
 from .dataset import count
-from .errors import InputError, RunError
+from .errors import BuildError, InputError
 from .start_values import track_constants
 
 if TYPE_CHECKING:
@@ -59,16 +60,10 @@ def build_for(
     ------
     InputError
         For a build that there is not.
-    RunError
+    BuildError
         Where they cannot be compiled or written.
     """
-    numbers = count(scenario)
-    structure = Structure(
-        bays=scenario.track.bays,
-        elements_per_bay=scenario.track.elements_per_bay,
-        wheels=numbers["wheel"],
-        gauges=numbers["gauge"],
-    )
+    structure = _structure(scenario)
     directory = directory or folder_of(fmus)
     try:
         if fmus == "python":
@@ -85,9 +80,37 @@ def build_for(
             progress=notify,
         )
     except CompilationError as error:
-        raise RunError(f"{error}; or run with --fmus python") from error
+        raise BuildError(f"{error}; or run with --fmus python") from error
     except OSError as error:
-        raise RunError(
+        raise BuildError(
             f"the FMUs cannot be written to {directory}: {error.strerror or error}; make that "
             "folder writable"
         ) from error
+
+
+def has_own_fmu(scenario: Scenario, fmus: str) -> bool:
+    """Tell whether the track has an FMU of its own, of which only the last few built are kept.
+
+    Native ones of other constants than the paper's do.
+    """
+    if fmus != "native":
+        return False
+    size = _structure(scenario)
+    track = native_track(
+        bays=size.bays,
+        elements_per_bay=size.elements_per_bay,
+        wheels=size.wheels,
+        gauges=size.gauges,
+        fixed=track_constants(scenario),
+    )
+    return not track.usual
+
+
+def _structure(scenario: Scenario) -> Structure:
+    numbers = count(scenario)
+    return Structure(
+        bays=scenario.track.bays,
+        elements_per_bay=scenario.track.elements_per_bay,
+        wheels=numbers["wheel"],
+        gauges=numbers["gauge"],
+    )

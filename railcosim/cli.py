@@ -1,4 +1,4 @@
-"""The command line: `railcosim run`, `cosim` and what is around them."""
+"""The command line: `railcosim run`, `cosim` and the other commands."""
 
 import signal
 import sys
@@ -14,6 +14,7 @@ from .commands.endings import say
 from .commands.evaluate import evaluate
 from .commands.replay import replay
 from .commands.run import run
+from .commands.sweep import sweep
 
 USAGE_ERROR: Any = typer.BadParameter.__mro__[1]
 """What typer raises for a wrong command line; newer versions bring a click of their own."""
@@ -26,7 +27,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-for command in (run, evaluate, cosim, build, replay, check):
+for command in (run, evaluate, sweep, cosim, build, replay, check):
     app.command()(command)
 
 

@@ -31,3 +31,7 @@ class RunError(RuntimeError):
     def __init__(self, message: str, *, result: xr.Dataset | None = None) -> None:
         super().__init__(message)
         self.result = result
+
+
+class BuildError(RunError):
+    """The FMUs cannot be built: a reason that has to do with the machine, not with the scenario."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import MISSING, Field, dataclass, fields
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, get_args, get_origin, get_type_hints
 
@@ -99,9 +100,15 @@ def is_csv(value: str) -> bool:
 
 def holds_file(section: type[DataclassInstance], key: str, value: str) -> bool:
     """Tell whether ``value`` is the path of a file, as the key's annotation has it."""
-    _, rule = _kind_and_rule(get_type_hints(section, include_extras=True)[key])
+    _, rule = _kind_and_rule(_hints(section)[key])
     named = isinstance(rule, CsvFile) or (isinstance(rule, Choice) and rule.or_csv)
     return named and is_csv(value)
+
+
+def holds_float(section: type[DataclassInstance], key: str) -> bool:
+    """Tell whether a key is a number that need not be whole."""
+    kind, _ = _kind_and_rule(_hints(section)[key])
+    return float in kind
 
 
 def check_fields(section: DataclassInstance, name: str) -> None:
@@ -119,7 +126,7 @@ def check_fields(section: DataclassInstance, name: str) -> None:
     InputError
         For a wrong type or a value outside its limits.
     """
-    hints = get_type_hints(type(section), include_extras=True)
+    hints = _hints(type(section))
     for item in fields(section):
         value = getattr(section, item.name)
         kind, rule = _kind_and_rule(hints[item.name])
@@ -139,6 +146,11 @@ def check_fields(section: DataclassInstance, name: str) -> None:
                 else _shortened(value)
             )
             raise InputError(f"{key} is {shown} but must be {wanted}{_default_hint(item, rule)}")
+
+
+@cache  # a study builds thousands of sections
+def _hints(section: type[DataclassInstance]) -> dict[str, object]:
+    return get_type_hints(section, include_extras=True)
 
 
 def _kind_and_rule(

@@ -14,6 +14,7 @@ from .fields import holds_file
 from .master_section import Master
 from .scenario import Scenario
 from .sections import Flat, Run, Track, Vehicle
+from .toml_text import parse_toml, read_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -35,7 +36,8 @@ KEYS: Mapping[str, tuple[str, ...]] = {
 SHOWN = 80
 """Characters of a wrong value that a message repeats."""
 
-_Values: TypeAlias = dict[str, dict[str, Any]]
+Values: TypeAlias = dict[str, dict[str, Any]]
+"""Keys of a scenario by section."""
 
 
 def read_scenario(path: Path | None = None, overrides: Iterable[str] = ()) -> Scenario:
@@ -59,13 +61,13 @@ def read_scenario(path: Path | None = None, overrides: Iterable[str] = ()) -> Sc
     InputError
         For a missing or malformed file, an unknown key or a value that does not fit.
     """
-    values: _Values = {name: {} for name in SECTIONS}
+    values = no_values()
     if path is not None:
-        _put_all(values, _read_toml(path), path.parent)
+        put_all(values, parse_toml(read_text(path, "scenario"), f"scenario {path}"), path.parent)
     for text in overrides:
         section, key, value = _parse_override(text)
-        _put(values, section, key, value, Path.cwd())
-    return _build(values)
+        put(values, section, key, value, Path.cwd())
+    return build_scenario(values)
 
 
 def from_toml(text: str) -> Scenario:
@@ -78,9 +80,9 @@ def from_toml(text: str) -> Scenario:
     tomllib.TOMLDecodeError
         For a text that is no TOML.
     """
-    values: _Values = {name: {} for name in SECTIONS}
-    _put_all(values, tomllib.loads(text), Path.cwd())
-    return _build(values)
+    values = no_values()
+    put_all(values, tomllib.loads(text), Path.cwd())
+    return build_scenario(values)
 
 
 def to_toml(scenario: Scenario) -> str:
@@ -104,20 +106,49 @@ def to_toml(scenario: Scenario) -> str:
     return "\n".join(blocks)
 
 
-def _build(values: _Values) -> Scenario:
+def no_values() -> Values:
+    """Return the keys of a scenario that gives none."""
+    return {name: {} for name in SECTIONS}
+
+
+def build_scenario(values: Values) -> Scenario:
+    """Check the keys of a scenario as a whole.
+
+    Raises
+    ------
+    InputError
+        For a value that does not fit.
+    """
     return Scenario(**{name: kind(**values[name]) for name, kind in SECTIONS.items()})
 
 
-def _put_all(values: _Values, tables: Mapping[str, Any], folder: Path) -> None:
-    """Put every key of a parsed file in its place."""
+def put_all(values: Values, tables: Mapping[str, Any], folder: Path) -> None:
+    """Put every key of a parsed file in its place; see `put`."""
     for section, keys in tables.items():
         _check_section(section, keys)
         for key, value in keys.items():
-            _put(values, section, key, value, folder)
+            put(values, section, key, value, folder)
 
 
-def _put(values: _Values, section: str, key: str, value: object, folder: Path) -> None:
-    """Put a key in its place, the path of a file made absolute."""
+def put(values: Values, section: str, key: str, value: object, folder: Path) -> None:
+    """Put a key in its place, the path of a file made absolute.
+
+    Parameters
+    ----------
+    values : dict
+        Keys by section, which gain this one.
+    section, key : str
+        Which key.
+    value : object
+        Its value, which `build_scenario` checks.
+    folder : Path
+        Where a file that it names is sought.
+
+    Raises
+    ------
+    InputError
+        For an unknown key or a path that cannot be one.
+    """
     _check_section(section, {})
     if key not in KEYS[section]:
         name = f"{section}.{key}"
@@ -133,18 +164,6 @@ def _put(values: _Values, section: str, key: str, value: object, folder: Path) -
                 f"{section}.{key} is {value[:SHOWN]!r}, which is no usable path ({error})"
             ) from error
     values[section][key] = value
-
-
-def _read_toml(path: Path) -> dict[str, Any]:
-    """Read a TOML file, or say in one sentence why not."""
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise InputError(
-            f"cannot read the scenario {path}: {error.strerror or error}; check the path"
-        ) from error
-    except (ValueError, RecursionError) as error:  # numbers too long, tables too deep
-        raise InputError(f"the scenario {path} is not valid TOML: {error}; correct it") from error
 
 
 def _parse_override(text: str) -> tuple[str, str, Any]:

@@ -22,6 +22,8 @@ MAY_IMPORT = {
     "build_fmus": {"platformdirs", "fmu_src"},
     "railcosim": {
         *(OURS - {"railcosim"}),
+        "dask",
+        "distributed",
         "fmpy",
         "matplotlib",
         "numpy",
@@ -126,7 +128,9 @@ def test_a_package_imports_itself_by_relative_imports(part):
 
 def test_every_library_in_use_is_declared_and_every_declared_one_is_used():
     project = project_file()["project"]
-    extra = project["optional-dependencies"]["parquet"]
+    extra = [
+        line for name in ("parquet", "sweep") for line in project["optional-dependencies"][name]
+    ]
     names = [re.split(r"[\[<>=! ]", line)[0] for line in [*project["dependencies"], *extra]]
     behind_xarray = {"h5netcdf", "h5py"}  # which writes its files through them
     used = {item.top for part in OURS for item in foreign(part)} - OURS

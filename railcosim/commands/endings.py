@@ -5,7 +5,6 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import typer
-import xarray as xr
 
 from ..errors import InputError, RunError
 from ..output import write_dataset
@@ -23,17 +22,6 @@ def keeping(output: Path | None) -> Iterator[None]:
             except RunError as another:
                 raise RunError(f"{error}; {another}") from error
         raise
-
-
-def check_result(result: xr.Dataset) -> None:
-    """Say why a run ended early or is wrong, if it did or is."""
-    if not result.attrs["complete"]:
-        raise RunError(
-            f"the run ended at t = {result.attrs['simulated_time']:.6g} s, because "
-            f"{result.attrs['stop_reason']}; the result reaches up to there"
-        )
-    if result.attrs["unreliable"]:
-        raise RunError(f"the result is wrong: {result.attrs['unreliable'].splitlines()[0]}")
 
 
 @contextmanager

@@ -16,11 +16,12 @@ from ..notes import notes
 from ..output import FIGURE_SUFFIXES, check_writable, write_dataset, write_figure
 from ..passage import run_passage
 from ..progress import progress_bar
+from ..result_check import check_result
 from ..scenario import Scenario
 from ..scenario_file import read_scenario
 from ..summary import summarise
 from ..summary_table import summary_table
-from .endings import check_result, exit_codes, keeping, say
+from .endings import exit_codes, keeping, say
 from .options import (
     FmuKind,
     Isolate,
