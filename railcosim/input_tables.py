@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 
-def read_as(kind: Callable[..., T], path: str, columns: Sequence[str]) -> T:
+def read_as(
+    kind: Callable[..., T], path: str, columns: Sequence[str], *, optional: Sequence[str] = ()
+) -> T:
     """Read a CSV file into a table.
 
     Parameters
@@ -32,6 +34,8 @@ def read_as(kind: Callable[..., T], path: str, columns: Sequence[str]) -> T:
         The file.
     columns : sequence of str
         Names of its columns, from the left.
+    optional : sequence of str
+        Columns that may follow.
 
     Raises
     ------
@@ -39,7 +43,7 @@ def read_as(kind: Callable[..., T], path: str, columns: Sequence[str]) -> T:
         For a file that cannot be read or does not hold such a table.
     """
     try:
-        values = read_table(path, columns)
+        values = read_table(path, columns, optional=optional)
     except ValueError as error:
         raise InputError(str(error)) from error
     try:

@@ -94,7 +94,7 @@ def check_writable(path: Path, *, option: str, suffixes: tuple[str, ...]) -> Non
         raise InputError(f"{option} {path} is not writable: choose another place")
 
 
-def write_dataset(result: xr.Dataset, path: Path, *, along: str = "time") -> None:
+def write_dataset(result: xr.Dataset, path: Path, *, along: str | None = None) -> None:
     """Write a result in one piece: everything as NetCDF-4 or MAT, or one table as CSV or Parquet.
 
     Parameters
@@ -103,8 +103,8 @@ def write_dataset(result: xr.Dataset, path: Path, *, along: str = "time") -> Non
         Result of a passage or of another co-simulation, or what was worked out from one.
     path : Path
         File that ends with one of `DATA_SUFFIXES`.
-    along : str
-        Dimension of the rows of a table.
+    along : str, optional
+        Dimension of the rows of a table; see `table.columns`.
 
     Raises
     ------
@@ -166,7 +166,7 @@ def _encoded(texts: xr.DataArray) -> xr.DataArray:
     return texts.copy(data=texts.to_numpy().astype(np.bytes_)).assign_attrs(_Encoding="utf-8")
 
 
-def _write_csv(result: xr.Dataset, path: Path, *, along: str) -> None:
+def _write_csv(result: xr.Dataset, path: Path, *, along: str | None) -> None:
     """Write one row per accepted time; the shortest digits that give the same number back."""
     series = list(columns(result, along))
     with path.open("w", encoding="utf-8", newline="") as file:
@@ -177,7 +177,7 @@ def _write_csv(result: xr.Dataset, path: Path, *, along: str) -> None:
             writer.writerows(zip(*(_plain(column.values[part]) for column in series), strict=True))
 
 
-def _write_parquet(result: xr.Dataset, path: Path, *, along: str) -> None:
+def _write_parquet(result: xr.Dataset, path: Path, *, along: str | None) -> None:
     """Write one row per accepted time; units, long names, signs and the scenario as metadata."""
     import pyarrow as pa  # noqa: PLC0415 - an optional library, looked for by `check_writable`
     import pyarrow.parquet as pq  # noqa: PLC0415 - likewise

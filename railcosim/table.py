@@ -1,4 +1,4 @@
-"""The series of a result as plain columns."""
+"""The series of a result, over time or over what it is about, as plain columns."""
 
 from __future__ import annotations
 
@@ -33,21 +33,24 @@ class Column:
     attributes: dict[str, str]
 
 
-def columns(result: xr.Dataset, along: str = "time") -> Iterator[Column]:
+def columns(result: xr.Dataset, along: str | None = None) -> Iterator[Column]:
     """Yield every series over time, or along another dimension, that dimension itself first.
 
     Parameters
     ----------
     result : xarray.Dataset
-        Result of a passage or of another co-simulation, or what was worked out from one.
-    along : str
-        Dimension of the rows; what does not have it as its first one is left out.
+        Result of a passage, of another co-simulation, or of a study over frequency and the like.
+    along : str, optional
+        Dimension of the rows, time or else the first one without; what does not have it as its
+        first dimension is left out.
 
     Yields
     ------
     Column
         In the order of the dataset's variables.
     """
+    if along is None:
+        along = "time" if "time" in result.dims else str(next(iter(result.dims)))
     over_rows = [name for name, axis in result.coords.items() if axis.dims == (along,)]
     names = dict.fromkeys([along, *over_rows, *result.data_vars])
     for name in names:

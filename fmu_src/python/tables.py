@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 
-def read_table(path: str | Path, columns: Sequence[str]) -> dict[str, NDArray[np.float64]]:
+def read_table(
+    path: str | Path, columns: Sequence[str], *, optional: Sequence[str] = ()
+) -> dict[str, NDArray[np.float64]]:
     """Read a table of numbers.
 
     Values are separated by commas, semicolons or white space; empty lines and lines that start
@@ -22,6 +24,8 @@ def read_table(path: str | Path, columns: Sequence[str]) -> dict[str, NDArray[np
         The file.
     columns : sequence of str
         Names of the columns in the order in which the file has them.
+    optional : sequence of str
+        Columns that may follow them; the first row of numbers says how many do.
 
     Returns
     -------
@@ -40,6 +44,7 @@ def read_table(path: str | Path, columns: Sequence[str]) -> dict[str, NDArray[np
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
         raise ValueError(f"table {path}: cannot be read ({reason})") from error
     rows: list[list[float]] = []
+    names = list(columns)
     header_allowed = True
     for number, line in enumerate(text.splitlines(), start=1):
         content = line.strip()
@@ -50,11 +55,13 @@ def read_table(path: str | Path, columns: Sequence[str]) -> dict[str, NDArray[np
             header_allowed = False
             continue
         header_allowed = False
-        rows.append(_numbers(cells, columns, f"table {path}, line {number}"))
+        if not rows:
+            names += optional[: max(0, len(cells) - len(columns))]
+        rows.append(_numbers(cells, names, f"table {path}, line {number}"))
     if not rows:
         raise ValueError(f"table {path}: has no rows; expected columns {', '.join(columns)}")
     values = np.array(rows)
-    return {name: values[:, i].copy() for i, name in enumerate(columns)}
+    return {name: values[:, i].copy() for i, name in enumerate(names)}
 
 
 def _has_separator(content: str) -> bool:

@@ -10,17 +10,11 @@ from rich.console import Console
 from ..errors import InputError
 from ..evaluation.settings import TEST_SITE_BAYS, TEST_SITE_RATE, UIC60_FOOT, Evaluation, PartName
 from ..figures.passage import describe
-from ..output import (
-    FIGURE_SUFFIXES,
-    TABLE_SUFFIXES,
-    check_writable,
-    write_dataset,
-    write_figure,
-)
+from ..output import TABLE_SUFFIXES, write_dataset, write_figure
 from ..result_file import read_result
 from ..scenario_file import from_toml
 from .endings import exit_codes, say
-from .options import Output, check_output
+from .options import Json, Output, Plot, check_output, check_plot
 
 
 def evaluate(
@@ -45,12 +39,8 @@ def evaluate(
         float, typer.Option(metavar="M", help="Strain gauges below the neutral axis of the rail.")
     ] = UIC60_FOOT,
     output: Output = None,
-    plot: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Figure: .png, .pdf or .svg.")
-    ] = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the numbers as one JSON object, SI units.")
-    ] = False,
+    plot: Plot = None,
+    as_json: Json = False,
 ) -> None:
     """Work out spectra, third octaves, detector record, strains and support loads of a passage."""
     # the library of filters and spectra takes as long to import as the rest of the program
@@ -73,8 +63,7 @@ def evaluate(
                 f"--output {output} holds one table but an evaluation makes several: choose one "
                 "with --part, or write a .nc or .mat file"
             )
-        if plot is not None:
-            check_writable(plot, option="--plot", suffixes=FIGURE_SUFFIXES)
+        check_plot(plot)
         found = work_out(read_result(result), settings, part=part)
         if not found.attrs["complete"]:
             say("note: the run ended early; this is what there is of it")
@@ -82,8 +71,7 @@ def evaluate(
             say(f"note: the run is wrong: {found.attrs['unreliable'].splitlines()[0]}")
         title = describe(from_toml(found.attrs["scenario"]))
         if output is not None:
-            along = "time" if part is None else PARTS[part].along
-            write_dataset(found, output, along=along)
+            write_dataset(found, output, along=None if part is None else PARTS[part].along)
         if plot is not None:
             write_figure(draw_evaluation(found, part, title), plot)
         if as_json:

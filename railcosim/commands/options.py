@@ -9,7 +9,7 @@ import typer
 from orchestrator.isolated import DEFAULT_TIMEOUT
 
 from ..errors import InputError
-from ..output import DATA_SUFFIXES, REPLAY_SUFFIX, check_writable
+from ..output import DATA_SUFFIXES, FIGURE_SUFFIXES, REPLAY_SUFFIX, check_writable
 
 
 class FmuKind(StrEnum):
@@ -24,6 +24,17 @@ Timeout = Annotated[
     float | None,
     typer.Option(metavar="S", help="Longest answer of an FMU [s]; with --isolate, 60 without."),
 ]
+ScenarioFile = Annotated[
+    Path | None, typer.Argument(metavar="SCENARIO.toml", help="The paper's case without.")
+]
+Overrides = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="KEY=VALUE", help="Replace a key, as in flat.depth=1e-3."),
+]
+Json = Annotated[
+    bool, typer.Option("--json", help="Print the numbers as one JSON object, SI units.")
+]
+Plot = Annotated[Path | None, typer.Option(metavar="FILE", help="Figure: .png, .pdf or .svg.")]
 Output = Annotated[
     Path | None, typer.Option(metavar="FILE", help="Result: .nc, .csv, .parquet or .mat.")
 ]
@@ -59,3 +70,9 @@ def check_output(output: Path | None) -> None:
     """Find out before a run whether its result can be written, if it is to be."""
     if output is not None:
         check_writable(output, option="--output", suffixes=DATA_SUFFIXES)
+
+
+def check_plot(plot: Path | None) -> None:
+    """Find out before a run whether its figure can be written, if it is to be."""
+    if plot is not None:
+        check_writable(plot, option="--plot", suffixes=FIGURE_SUFFIXES)

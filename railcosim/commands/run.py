@@ -13,7 +13,7 @@ from rich.console import Console
 from ..builds import usual_build
 from ..figures.passage import describe, draw_passage
 from ..notes import notes
-from ..output import FIGURE_SUFFIXES, check_writable, write_dataset, write_figure
+from ..output import write_dataset, write_figure
 from ..passage import run_passage
 from ..progress import progress_bar
 from ..result_check import check_result
@@ -25,11 +25,16 @@ from .endings import exit_codes, keeping, say
 from .options import (
     FmuKind,
     Isolate,
+    Json,
     Output,
+    Overrides,
+    Plot,
     Quiet,
     Replay,
+    ScenarioFile,
     Timeout,
     check_output,
+    check_plot,
     replay_file,
     time_limit,
 )
@@ -44,14 +49,9 @@ class ContactName(StrEnum):
 
 
 def run(
-    scenario: Annotated[
-        Path | None, typer.Argument(metavar="SCENARIO.toml", help="The paper's case without.")
-    ] = None,
+    scenario: ScenarioFile = None,
     *,
-    overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="KEY=VALUE", help="Replace a key, as in flat.depth=1e-3."),
-    ] = None,
+    overrides: Overrides = None,
     fmus: Annotated[
         FmuKind | None,
         typer.Option(help="Which build of the FMUs runs; native, if it has been built, without."),
@@ -63,20 +63,15 @@ def run(
     timeout: Timeout = None,
     output: Output = None,
     replay: Replay = None,
-    plot: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Figure: .png, .pdf or .svg.")
-    ] = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the numbers as one JSON object, SI units.")
-    ] = False,
+    plot: Plot = None,
+    as_json: Json = False,
     quiet: Quiet = False,
 ) -> None:
     """Co-simulate one passage of a vehicle over a track."""
     with exit_codes():
         case = read_scenario(scenario, overrides or ())
         check_output(output)
-        if plot is not None:
-            check_writable(plot, option="--plot", suffixes=FIGURE_SUFFIXES)
+        check_plot(plot)
         limit = time_limit(timeout, isolate=isolate)
         for note in notes(case, contact.value):
             say(f"note: {note}")

@@ -14,11 +14,12 @@ OTHERS = ("#D55E00", "#009E73", "#CC79A7", "#E69F00")
 """Their colours for what stands beside it, in turn."""
 
 
-def tidy(axes: Axes) -> None:
-    """Leave grid lines, two spines and a legend above that hides nothing."""
+def tidy(axes: Axes, *, legend: bool = True) -> None:
+    """Leave grid lines, two spines and, if wanted, a legend above that hides nothing."""
     axes.grid(color="0.9", linewidth=0.6)
     axes.spines[["top", "right"]].set_visible(False)
     axes.margins(x=0.0)
-    axes.legend(
-        frameon=False, fontsize="small", loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4
-    )
+    if legend:
+        axes.legend(
+            frameon=False, fontsize="small", loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4
+        )

@@ -1,0 +1,1 @@
+"""Receptance of the track: displacement over force against frequency, direct and modal."""

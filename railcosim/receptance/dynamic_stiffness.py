@@ -1,0 +1,106 @@
+"""Dynamic stiffness of the assembled track, solved frequency by frequency."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import scipy.linalg as la
+
+from track_fmu.assembly import HALF_BANDWIDTH, assemble, to_banded
+
+if TYPE_CHECKING:
+    from track_fmu.beam_element import FloatArray
+    from track_fmu.eigensolver import ComplexArray
+    from track_fmu.parameters import TrackParameters
+
+    from .points import TrackPoint
+    from .preload import BallastTangent
+
+
+class DynamicStiffness:
+    """``Z(omega) = K + i omega C - omega^2 M`` of the whole track, without modes.
+
+    Parameters
+    ----------
+    parameters : TrackParameters
+        The linear track.
+    tangent : BallastTangent, optional
+        What the ballast has more of under a preload.
+    """
+
+    def __init__(self, parameters: TrackParameters, tangent: BallastTangent | None = None) -> None:
+        self.matrices = assemble(parameters)
+        self._stiffness, self._damping, self._mass = (
+            _both_triangles(to_banded(matrix))
+            for matrix in (self.matrices.stiffness, self.matrices.damping, self.matrices.mass)
+        )
+        if tangent is not None:
+            sleepers = self.matrices.numbering.sleeper
+            self._stiffness[HALF_BANDWIDTH, sleepers] += tangent.stiffness
+            self._damping[HALF_BANDWIDTH, sleepers] += tangent.damping
+
+    def load(self, point: TrackPoint) -> FloatArray:
+        """Forces on the degrees of freedom, shape (N,), of a unit force at a point."""
+        force = np.zeros(self.matrices.numbering.size)
+        free = point.dofs >= 0
+        force[point.dofs[free]] = point.shape[free]
+        return force
+
+    def solve(self, frequency: float, forces: FloatArray) -> ComplexArray:
+        """Amplitudes ``Z^-1 f`` at a frequency.
+
+        Parameters
+        ----------
+        frequency : float
+            Of the excitation [Hz]; 0 is static.
+        forces : (N,) or (N, k) float array
+            Amplitudes of the forces on the degrees of freedom [N].
+
+        Returns
+        -------
+        complex array
+            Of the displacements [m], in the shape of ``forces``.
+        """
+        omega = 2.0 * np.pi * frequency
+        matrix = self._stiffness + (1j * omega) * self._damping - omega**2 * self._mass
+        return np.asarray(
+            la.solve_banded(
+                (HALF_BANDWIDTH, HALF_BANDWIDTH),
+                matrix,
+                forces.astype(complex),
+                overwrite_ab=True,
+                overwrite_b=True,
+                check_finite=False,
+            )
+        )
+
+    def receptance(
+        self, frequencies: FloatArray, *, load: TrackPoint, response: TrackPoint
+    ) -> ComplexArray:
+        """Displacement at one point over the force at another [m/N].
+
+        Parameters
+        ----------
+        frequencies : (n,) float array
+            Of the excitation [Hz].
+        load, response : TrackPoint
+            Where the force acts and where the displacement is taken.
+
+        Returns
+        -------
+        (n,) complex array
+            Its argument is the phase by which the displacement leads the force.
+        """
+        force, observed = self.load(load), self.load(response)
+        return np.array([observed @ self.solve(float(f), force) for f in frequencies])
+
+
+def _both_triangles(lower: FloatArray) -> FloatArray:
+    """Band storage of a symmetric matrix, shape (2 b + 1, N), from that of its lower triangle."""
+    width, size = lower.shape[0] - 1, lower.shape[1]
+    band = np.zeros((2 * width + 1, size))
+    band[width:] = lower
+    for k in range(1, width + 1):
+        band[width - k, k:] = lower[k, : size - k]
+    return band

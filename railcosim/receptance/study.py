@@ -1,0 +1,131 @@
+"""The receptance of the track of a scenario: what is loaded where, under which preload."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fmu_src.python.basis_cache import cached_basis
+from track_fmu.assembly import assemble
+from track_fmu.reduction import reduce_track
+
+from ..errors import InputError
+from ..track_data import ballast_law, track_parameters
+from .dynamic_stiffness import DynamicStiffness
+from .modal import modal_receptance
+from .peaks import Peak, find_peaks
+from .points import Place, track_point
+from .preload import BallastTangent, ballast_tangent
+
+if TYPE_CHECKING:
+    from track_fmu.beam_element import FloatArray
+    from track_fmu.eigensolver import ComplexArray
+    from track_fmu.parameters import TrackParameters
+    from track_fmu.reduction import ReducedTrack
+
+    from ..scenario import Scenario
+
+METHODS = ("direct", "modal")
+"""Ways to a receptance: the dynamic stiffness of the whole track, or its modes."""
+
+
+def midspan(scenario: Scenario) -> Place:
+    """Middle of the bay in which the flat strikes."""
+    return Place(position=scenario.gauge_positions[0])
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ReceptanceStudy:
+    """What is loaded where, at which frequencies and under which preload.
+
+    Attributes
+    ----------
+    scenario : Scenario
+        Its track is the one studied.
+    load, response : Place
+        Where the force acts and where the displacement is taken.
+    preload : float
+        Standing load on the rail where the force acts [N]; about the equilibrium under it the
+        state-dependent ballast is linearised. 0: the unloaded track.
+
+    Raises
+    ------
+    InputError
+        For a place that is not on the track, or a preload without effect.
+    """
+
+    scenario: Scenario
+    load: Place
+    response: Place
+    preload: float = 0.0
+
+    def __post_init__(self) -> None:
+        for place in (self.load, self.response):
+            track_point(self._parameters, place)
+        if not (np.isfinite(self.preload) and self.preload >= 0.0):
+            raise InputError(f"the preload is {self.preload:g} N but must be at least 0 N")
+        if self.preload > 0.0 and self.scenario.track.ballast == "linear":
+            raise InputError(
+                f"a preload of {self.preload:g} N changes nothing on a linear track: leave it out "
+                "or set track.ballast=state_dependent"
+            )
+
+    def receptance(self, frequencies: FloatArray, method: str = "direct") -> ComplexArray:
+        """Displacement over force [m/N], shape (n,), at frequencies [Hz] by one of `METHODS`."""
+        load, response = (track_point(self._parameters, p) for p in (self.load, self.response))
+        if method == "direct":
+            return self._dynamic_stiffness.receptance(frequencies, load=load, response=response)
+        return modal_receptance(
+            self._reduced,
+            frequencies,
+            load=load,
+            response=response,
+            tangent=self._tangent,
+        )
+
+    def peaks(self, frequencies: FloatArray, amplitude: FloatArray, method: str) -> list[Peak]:
+        """Resonances in a sampled receptance [m/N], found between the samples [Hz] too."""
+
+        def evaluate(frequency: float) -> float:
+            return float(np.abs(self.receptance(np.array([frequency]), method)[0]))
+
+        return find_peaks(frequencies, amplitude, evaluate)
+
+    @cached_property
+    def _parameters(self) -> TrackParameters:
+        return track_parameters(self.scenario.track)
+
+    @cached_property
+    def _dynamic_stiffness(self) -> DynamicStiffness:
+        return DynamicStiffness(self._parameters, self._tangent)
+
+    @cached_property
+    def _tangent(self) -> BallastTangent | None:
+        law = ballast_law(self.scenario.track)
+        if law is None or self.preload == 0.0:
+            return None
+        return ballast_tangent(
+            self._statically_exact,
+            law,
+            position=self.load.along(self._parameters),
+            force=self.preload,
+            supports_per_wheel=self.scenario.track.supports_per_wheel,
+        )
+
+    @cached_property
+    def _reduced(self) -> ReducedTrack:
+        if self.scenario.track.residual_flexibility:
+            return self._statically_exact
+        return self._reduce(residual_flexibility=False)
+
+    @cached_property
+    def _statically_exact(self) -> ReducedTrack:
+        return self._reduce(residual_flexibility=True)
+
+    def _reduce(self, *, residual_flexibility: bool) -> ReducedTrack:
+        parameters, matrices = self._parameters, assemble(self._parameters)
+        basis = cached_basis(parameters, matrices, mode_pairs=self.scenario.track.retained_pairs)
+        return reduce_track(parameters, matrices, basis, residual_flexibility=residual_flexibility)
