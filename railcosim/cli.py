@@ -12,6 +12,7 @@ from .commands.check import check
 from .commands.cosim import cosim
 from .commands.endings import say
 from .commands.evaluate import evaluate
+from .commands.figures import figures
 from .commands.receptance import receptance
 from .commands.replay import replay
 from .commands.run import run
@@ -28,7 +29,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-for command in (run, evaluate, sweep, receptance, cosim, build, replay, check):
+for command in (run, evaluate, sweep, figures, receptance, cosim, build, replay, check):
     app.command()(command)
 
 
