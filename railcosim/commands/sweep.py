@@ -62,15 +62,21 @@ def sweep(
                 last = progress
                 show(progress)
 
-            result = run_study(
-                described,
-                store=store or study.with_suffix(".store"),
-                workers=workers,
-                scheduler=scheduler,
-                retry_failed=retry_failed,
-                notify=None if quiet else say,
-                report=report,
-            )
+            try:
+                result = run_study(
+                    described,
+                    store=store or study.with_suffix(".store"),
+                    workers=workers,
+                    scheduler=scheduler,
+                    retry_failed=retry_failed,
+                    notify=None if quiet else say,
+                    report=report,
+                )
+            except KeyboardInterrupt as error:
+                raise RunError(
+                    f"interrupted with {last.stored + last.ended} of {last.total} cases stored; "
+                    "the same command goes on with the others"
+                ) from error
         write_dataset(result, output)
         failures = _failures(result)
         if as_json:

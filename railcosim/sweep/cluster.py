@@ -8,6 +8,7 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
+from . import worker_preload
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -49,7 +50,8 @@ def local_client(workers: int | None, cases: int) -> Iterator[Client]:
         n_workers=min(workers or CPU_COUNT, cases),
         threads_per_worker=1,
         processes=True,
-        dashboard_address=None,
+        preload=worker_preload.__name__,
+        dashboard_address="127.0.0.1:0",
         silence_logs=logging.CRITICAL,
     )
     with cluster, distributed.Client(cluster, set_as_default=False) as client:

@@ -61,26 +61,30 @@ def run_jobs(
     running: dict[str, tuple[Job, Future]] = {}
     ended: SimpleQueue[str] = SimpleQueue()
 
-    def submit(job: Job) -> None:
-        # a name of its own: another client may run the same case into another store
-        name = f"case-{uuid4().hex}"
-        future = client.submit(run_case_on_worker, job.case, job.key, store, key=name, pure=False)
-        running[name] = (job, future)
-        future.add_done_callback(lambda done: ended.put(done.key))
+    def fill() -> None:
+        for _ in range(_threads(client) - len(running)):
+            job = next(jobs, None)
+            if job is None:
+                return
+            # a name of its own: another client may run the same case into another store
+            name = f"case-{uuid4().hex}"
+            future = client.submit(
+                run_case_on_worker, job.case, job.key, store, key=name, pure=False
+            )
+            running[name] = (job, future)
+            future.add_done_callback(lambda done: ended.put(done.key))
 
     try:
-        while True:
-            for _ in range(_threads(client) - len(running)):
-                job = next(jobs, None)
-                if job is not None:
-                    submit(job)
-            if not running:
-                return
+        fill()
+        while running:
             try:
                 job, future = running.pop(ended.get(timeout=POLL))
             except Empty:
+                fill()
                 continue
-            settled(job, _outcome(job, future, store))
+            worked = _outcome(job, future, store)
+            fill()
+            settled(job, worked)
     finally:
         client.cancel([future for _, future in running.values()])
 

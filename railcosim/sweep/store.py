@@ -93,7 +93,8 @@ class Store:
 
     def keys(self) -> set[str]:
         """Return the keys of all cases."""
-        return {path.stem for path in self.folder.iterdir() if path.suffix == ".json"}
+        found = {path.stem for path in self.folder.iterdir() if path.suffix == ".json"}
+        return found - {Path(MARK).stem}
 
     def read(self, key: str) -> Record | None:
         """Return what is kept of a case; None if nothing is, or if it is damaged."""

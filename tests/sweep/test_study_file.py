@@ -9,6 +9,7 @@ from railcosim.errors import InputError
 from railcosim.sweep import parse_study, read_study
 
 GRID = "[sweep.grid]\nvehicle.speed_kmh = [40, 60.5]\n"
+MANY = "{ from = 1, to = 2, count = 1001 }"
 
 
 def speeds(study):
@@ -137,11 +138,7 @@ def test_options_of_a_run_can_be_swept():
         ("[sweep.grid]\nvehicle.speed_kmh = {from=5, to=9, step=1e-9}\n", ["at most 1000000"]),
         ("[sweep.grid]\nvehicle.speed_kmh = {from=5, to=inf, step=1}\n", ["to is inf", "finite"]),
         ("[sweep.grid]\nvehicle.speed_kmh = {from=5, to=9, count=1}\n", ["at least 2"]),
-        (
-            "[sweep.grid]\nvehicle.speed_kmh = {from=5, to=9, count=1001}\n"
-            "flat.depth = {from=0, to=1e-3, count=1001}\n",
-            ["1002001 cases", "at most 1000000"],
-        ),
+        (f"[sweep.grid.flat]\nlength = {MANY}\ndepth = {MANY}", ["1002001 cases", "at most 100"]),
         ("[[sweep.list]]\nflat.depth = 1e-3\n[[sweep.list]]\nflat.length = 1\n", ["same keys"]),
         ("[sweep.list]\nflat.depth = 1e-3\n", ["[[sweep.list]]"]),
         (f"{GRID}[[sweep.list]]\nvehicle.speed_kmh = 5\n", ["vehicle.speed_kmh is swept twice"]),
