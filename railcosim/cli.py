@@ -13,10 +13,12 @@ from .commands.cosim import cosim
 from .commands.endings import say
 from .commands.evaluate import evaluate
 from .commands.figures import figures
+from .commands.load_displacement import load_displacement
 from .commands.receptance import receptance
 from .commands.replay import replay
 from .commands.run import run
 from .commands.sweep import sweep
+from .commands.tune import tune
 
 USAGE_ERROR: Any = typer.BadParameter.__mro__[1]
 """What typer raises for a wrong command line; newer versions bring a click of their own."""
@@ -29,8 +31,20 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-for command in (run, evaluate, sweep, figures, receptance, cosim, build, replay, check):
+for command in (
+    run,
+    evaluate,
+    sweep,
+    figures,
+    receptance,
+    load_displacement,
+    cosim,
+    build,
+    replay,
+    check,
+):
     app.command()(command)
+app.add_typer(tune, name="tune")
 
 
 def main() -> None:

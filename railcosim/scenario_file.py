@@ -97,13 +97,19 @@ def to_toml(scenario: Scenario) -> str:
     blocks = []
     for name, kind in SECTIONS.items():
         section = getattr(resolved, name)
-        lines = [f"[{name}]"]
-        for item in fields(kind):
-            value = getattr(section, item.name)
-            if value is not None and value != "":
-                lines.append(f"{item.name} = {_toml_value(value)}")
-        blocks.append("\n".join(lines) + "\n")
+        values = {item.name: getattr(section, item.name) for item in fields(kind)}
+        blocks.append(section_to_toml(name, values))
     return "\n".join(blocks)
+
+
+def section_to_toml(name: str, values: Mapping[str, bool | float | str | None]) -> str:
+    """Write one section of a scenario file; keys without a value are left out."""
+    lines = [
+        f"{key} = {_toml_value(value)}"
+        for key, value in values.items()
+        if value is not None and value != ""
+    ]
+    return "\n".join([f"[{name}]", *lines]) + "\n"
 
 
 def no_values() -> Values:

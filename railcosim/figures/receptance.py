@@ -53,7 +53,7 @@ def _describe(receptance: xr.Dataset) -> str:
     """Say what was loaded and observed."""
     attributes = receptance.attrs
     load, response = attributes["load"], attributes["response"]
-    where = f"direct, {load}" if load == response else f"force {load}, displacement {response}"
+    where = load if load == response else f"force: {load}, displacement: {response}"
     preload = attributes["preload"]
     state = f"under a preload of {1e-3 * preload:g} kN" if preload else "unloaded track"
     return f"receptance, {where}, {state}"

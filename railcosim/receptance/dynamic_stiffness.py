@@ -9,6 +9,8 @@ import scipy.linalg as la
 
 from track_fmu.assembly import HALF_BANDWIDTH, assemble, to_banded
 
+from ..errors import RunError
+
 if TYPE_CHECKING:
     from track_fmu.beam_element import FloatArray
     from track_fmu.eigensolver import ComplexArray
@@ -61,19 +63,32 @@ class DynamicStiffness:
         -------
         complex array
             Of the displacements [m], in the shape of ``forces``.
+
+        Raises
+        ------
+        RunError
+            If the parameters of the track are such that there is no finite answer.
         """
         omega = 2.0 * np.pi * frequency
-        matrix = self._stiffness + (1j * omega) * self._damping - omega**2 * self._mass
-        return np.asarray(
-            la.solve_banded(
-                (HALF_BANDWIDTH, HALF_BANDWIDTH),
-                matrix,
-                forces.astype(complex),
-                overwrite_ab=True,
-                overwrite_b=True,
-                check_finite=False,
+        with np.errstate(over="ignore", invalid="ignore"):  # the answer is looked at below
+            matrix = self._stiffness + (1j * omega) * self._damping - omega**2 * self._mass
+            try:
+                answer = la.solve_banded(
+                    (HALF_BANDWIDTH, HALF_BANDWIDTH),
+                    matrix,
+                    forces.astype(complex),
+                    overwrite_ab=True,
+                    overwrite_b=True,
+                    check_finite=False,
+                )
+            except la.LinAlgError:
+                answer = np.full(forces.shape, np.nan, dtype=complex)
+        if not np.isfinite(answer).all():
+            raise RunError(
+                f"the track has no receptance at {frequency:g} Hz with these parameters: check the "
+                "magnitude of the keys of [track]"
             )
-        )
+        return np.asarray(answer)
 
     def receptance(
         self, frequencies: FloatArray, *, load: TrackPoint, response: TrackPoint
@@ -101,6 +116,6 @@ def _both_triangles(lower: FloatArray) -> FloatArray:
     width, size = lower.shape[0] - 1, lower.shape[1]
     band = np.zeros((2 * width + 1, size))
     band[width:] = lower
-    for k in range(1, width + 1):
+    for k in range(1, min(width + 1, size)):
         band[width - k, k:] = lower[k, : size - k]
     return band

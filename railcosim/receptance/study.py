@@ -7,12 +7,14 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.linalg import LinAlgError
 
 from fmu_src.python.basis_cache import cached_basis
 from track_fmu.assembly import assemble
+from track_fmu.eigensolver import EigenvalueError
 from track_fmu.reduction import reduce_track
 
-from ..errors import InputError
+from ..errors import InputError, RunError
 from ..track_data import ballast_law, track_parameters
 from .dynamic_stiffness import DynamicStiffness
 from .modal import modal_receptance
@@ -74,7 +76,13 @@ class ReceptanceStudy:
             )
 
     def receptance(self, frequencies: FloatArray, method: str = "direct") -> ComplexArray:
-        """Displacement over force [m/N], shape (n,), at frequencies [Hz] by one of `METHODS`."""
+        """Displacement over force [m/N], shape (n,), at frequencies [Hz] by one of `METHODS`.
+
+        Raises
+        ------
+        RunError
+            If the parameters of the track are such that there is none.
+        """
         load, response = (track_point(self._parameters, p) for p in (self.load, self.response))
         if method == "direct":
             return self._dynamic_stiffness.receptance(frequencies, load=load, response=response)
@@ -127,5 +135,13 @@ class ReceptanceStudy:
 
     def _reduce(self, *, residual_flexibility: bool) -> ReducedTrack:
         parameters, matrices = self._parameters, assemble(self._parameters)
-        basis = cached_basis(parameters, matrices, mode_pairs=self.scenario.track.retained_pairs)
+        pairs = self.scenario.track.retained_pairs
+        try:
+            with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # modes are checked
+                basis = cached_basis(parameters, matrices, mode_pairs=pairs)
+        except (EigenvalueError, LinAlgError) as error:
+            raise RunError(
+                f"the modes of the track cannot be found ({error}); check the keys of [track], or "
+                "use --method direct without a preload"
+            ) from error
         return reduce_track(parameters, matrices, basis, residual_flexibility=residual_flexibility)

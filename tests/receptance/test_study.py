@@ -46,6 +46,17 @@ def test_three_resonances_and_no_more(curves):
     assert curves["peak_frequency"].to_numpy() == pytest.approx([64.0, 258.0, 955.0], abs=1.0)
 
 
+def test_on_a_long_track_the_third_resonance_is_the_pinned_pinned_one():
+    """Where no waves come back from clamped ends; 943.1 Hz for an undamped Timoshenko beam pinned
+    at the sleepers, which 8 elements in a bay raise by 2 Hz.
+    """
+    long = study(scenario=Scenario(track=Track(bays=100)))
+    (peak,) = compute_receptance(long, frequency_range(800.0, 1100.0, 200), ("direct",))[
+        "peak_frequency"
+    ].to_numpy()
+    assert peak == pytest.approx(943.1, abs=2.0)
+
+
 def test_peaks_are_found_between_the_samples(table1, curves):
     coarse = compute_receptance(table1, frequency_range(20.0, 400.0, 40), ("direct",))
     found = coarse["peak_frequency"].to_numpy()

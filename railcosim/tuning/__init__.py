@@ -1,0 +1,1 @@
+"""Track parameters fitted to measurements."""

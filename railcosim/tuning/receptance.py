@@ -1,0 +1,240 @@
+"""Stiffness and damping of pads and ballast fitted to a measured receptance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from ..errors import InputError, RunError
+from ..receptance.measured import log_residual
+from ..track_data import track_parameters
+from .estimate import Estimate, covariance, half_width, rounded
+from .support_receptance import SUPPORT_PARAMETERS, SupportReceptance
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from track_fmu.beam_element import FloatArray
+    from track_fmu.eigensolver import ComplexArray
+
+    from ..receptance.measured import MeasuredReceptance
+    from ..receptance.points import Place
+    from ..scenario import Scenario
+
+LEAST_POINTS = 20
+"""Measured frequencies without which four parameters are not fitted."""
+
+FARTHEST = 1000.0
+"""Factor by which a parameter may move from its start, either way."""
+
+WRONG_SCALE = 30.0
+"""Factor between measured and calculated amplitudes beyond which their unit must be another."""
+
+MOST_EVALUATIONS = 50
+"""A search that needs more walks along something that the data do not determine."""
+
+WORST_FIT = np.log(2.0)
+"""Root mean square of log-amplitudes that no longer is a fit: a factor of two, 6 dB."""
+
+WIDEST = np.log(2.0)
+"""Half-width of a logarithmic confidence interval beyond which a parameter is not determined."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TunedTrack:
+    """A scenario whose track has the measured receptance.
+
+    Attributes
+    ----------
+    scenario : Scenario
+        The one that was given, with the fitted parameters.
+    estimates : tuple of Estimate
+        The fitted parameters.
+    points : int
+        Measured frequencies used.
+    amplitude_deviation : float
+        Root mean square of what the fit leaves of the natural logarithm of the amplitude ratio.
+    phase_deviation : float or None
+        Likewise of the phase [rad]; None where no phase was measured.
+    """
+
+    scenario: Scenario
+    estimates: tuple[Estimate, ...]
+    points: int
+    amplitude_deviation: float
+    phase_deviation: float | None
+
+
+def tune_to_receptance(
+    scenario: Scenario,
+    measured: MeasuredReceptance,
+    *,
+    load: Place,
+    response: Place,
+    hold: Collection[str] = (),
+) -> TunedTrack:
+    """Fit `SUPPORT_PARAMETERS` by least squares of log-amplitudes and phases.
+
+    The unknowns are the logarithms of the parameters, so that they stay positive and their
+    intervals are factors. The unloaded track is fitted.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        The rest of the track, and where the search starts.
+    measured : MeasuredReceptance
+        With or without phase.
+    load, response : Place
+        Where it was measured.
+    hold : collection of str
+        Parameters that keep their value.
+
+    Raises
+    ------
+    InputError
+        For data that cannot determine the parameters, or that are no receptance of such a track.
+    RunError
+        If the search does not end.
+    """
+    fitted = [k for k, name in enumerate(SUPPORT_PARAMETERS) if name not in hold]
+    start = _start(scenario, hold)
+    _check_points(measured, len(fitted))
+    parameters = track_parameters(scenario.track)
+    model = SupportReceptance(parameters, measured.frequency, load=load, response=response)
+    _check_scale(np.abs(model.evaluate(start)[0]), measured)
+
+    def values(unknowns: FloatArray) -> FloatArray:
+        result = start.copy()
+        result[fitted] *= np.exp(unknowns)
+        return result
+
+    @lru_cache(maxsize=1)  # residuals and derivatives are asked for one after the other
+    def evaluate(present: bytes) -> tuple[ComplexArray, ComplexArray]:
+        return model.evaluate(np.frombuffer(present))
+
+    def residual(unknowns: FloatArray) -> FloatArray:
+        return log_residual(evaluate(values(unknowns).tobytes())[0], measured)
+
+    def jacobian(unknowns: FloatArray) -> FloatArray:
+        present = values(unknowns)
+        receptance, derivatives = evaluate(present.tobytes())
+        relative = (derivatives * present / receptance[:, None])[:, fitted]
+        parts = [relative.real] if measured.phase is None else [relative.real, relative.imag]
+        return np.concatenate(parts)
+
+    limit = np.log(FARTHEST)
+    found = least_squares(
+        residual,
+        np.zeros(len(fitted)),
+        jacobian,
+        bounds=(-limit, limit),
+        max_nfev=MOST_EVALUATIONS,
+    )
+    points = len(measured.frequency)
+    amplitude, phase = found.fun[:points], found.fun[points:]
+    _check_fit(amplitude)
+    estimates = _estimates(found.x, jacobian(found.x), found.fun, start, fitted)
+    if not found.success:
+        raise RunError(
+            f"the fit did not settle within {MOST_EVALUATIONS} evaluations; start closer to the "
+            "measured track with --set track.pad_stiffness=... and the like"
+        )
+    best: dict[str, Any] = {item.name: item.value for item in estimates}
+    return TunedTrack(
+        scenario=replace(scenario, track=replace(scenario.track, **best)),
+        estimates=estimates,
+        points=points,
+        amplitude_deviation=_root_mean_square(amplitude),
+        phase_deviation=_root_mean_square(phase) if phase.size else None,
+    )
+
+
+def _start(scenario: Scenario, hold: Collection[str]) -> FloatArray:
+    """Values of `SUPPORT_PARAMETERS` from which the search starts."""
+    unknown = [name for name in hold if name not in SUPPORT_PARAMETERS]
+    if unknown:
+        raise InputError(
+            f"--hold {unknown[0]} is nothing that is fitted: choose of "
+            f"{', '.join(SUPPORT_PARAMETERS)}"
+        )
+    if set(hold) == set(SUPPORT_PARAMETERS):
+        raise InputError("every parameter is held: leave at least one to be fitted")
+    start = np.array([getattr(scenario.track, name) for name in SUPPORT_PARAMETERS])
+    for name, value in zip(SUPPORT_PARAMETERS, start, strict=True):
+        if value == 0.0 and name not in hold:
+            raise InputError(
+                f"track.{name} is 0 but the search must start above 0: give a guess with --set "
+                f"track.{name}=..."
+            )
+    return start
+
+
+def _check_points(measured: MeasuredReceptance, unknowns: int) -> None:
+    points = len(measured.frequency)
+    if points < LEAST_POINTS:
+        raise InputError(
+            f"{points} measured frequencies are too few to fit {unknowns} parameters: measure at "
+            f"{LEAST_POINTS} or more, or widen --from and --to"
+        )
+
+
+def _check_scale(calculated: FloatArray, measured: MeasuredReceptance) -> None:
+    ratio = float(np.exp(np.median(np.log(measured.amplitude / calculated))))
+    if not 1.0 / WRONG_SCALE < ratio < WRONG_SCALE:
+        raise InputError(
+            f"the measured amplitudes are about {ratio:.3g} times those of the track, more than a "
+            f"factor of {WRONG_SCALE:g}: give displacement over force in m/N, or start from a "
+            "closer track"
+        )
+
+
+def _check_fit(amplitude: FloatArray) -> None:
+    misfit = _root_mean_square(amplitude)
+    if misfit > WORST_FIT:
+        raise InputError(
+            f"the best fit is off by a factor of {np.exp(misfit):.2g} (root mean square) but must "
+            f"be within {np.exp(WORST_FIT):g}: check where it was measured (--position, "
+            "--response), the other keys of the track and the range of frequency"
+        )
+
+
+def _estimates(
+    unknowns: FloatArray,
+    jacobian: FloatArray,
+    residual: FloatArray,
+    start: FloatArray,
+    fitted: list[int],
+) -> tuple[Estimate, ...]:
+    """Parameters with their intervals; one that the data do not determine is refused."""
+    spread = covariance(jacobian, residual)
+    freedom = jacobian.shape[0] - jacobian.shape[1]
+    names = [SUPPORT_PARAMETERS[number] for number in fitted]
+    values = start[fitted] * np.exp(unknowns)
+    widths = np.array([half_width(float(variance), freedom) for variance in np.diag(spread)])
+    widths[np.abs(unknowns) > 0.99 * np.log(FARTHEST)] = np.inf
+    worst = int(np.argmax(widths))
+    if widths[worst] > WIDEST:
+        factor = np.exp(min(widths[worst], np.log(FARTHEST)))
+        raise InputError(
+            f"the measured receptance does not determine {names[worst]}, which is uncertain by a "
+            f"factor of {factor:.3g} or more but must be known to {np.exp(WIDEST):g}: measure "
+            f"around the resonance that it acts on, or keep it with --hold {names[worst]}"
+        )
+    return tuple(
+        Estimate(
+            name=name,
+            unit="N/m" if name.endswith("stiffness") else "N s/m",
+            value=rounded(float(value)),
+            low=float(value * np.exp(-width)),
+            high=float(value * np.exp(width)),
+        )
+        for name, value, width in zip(names, values, widths, strict=True)
+    )
+
+
+def _root_mean_square(values: FloatArray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
