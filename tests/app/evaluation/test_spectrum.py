@@ -10,7 +10,7 @@ HANN = 1.5  # noise bandwidth of a Hann window, lines
 
 
 def test_a_sine_gives_its_line(record, tone):
-    found = contact_force_spectrum(record(tone(2e4, 250.0), tone(3e3, 1200.0), seconds=2.0))
+    found = contact_force_spectrum(record(tone(2e4, 250.0), tone(3e3, 1200.0), seconds=1.0))
     amplitude = found["contact_force_amplitude"]
     assert float(amplitude.sel(frequency=250.0, wheel=1)) == pytest.approx(2e4, rel=PASSED)
     chords = np.sinc(1200.0 * 20e-6) ** 2  # what straight lines between the points leave
@@ -23,7 +23,7 @@ def test_a_sine_gives_its_line(record, tone):
 
 
 def test_the_density_of_a_sine_adds_up_to_its_mean_square(record, tone):
-    found = contact_force_spectrum(record(tone(2e4, 250.0), seconds=2.0))
+    found = contact_force_spectrum(record(tone(2e4, 250.0), seconds=1.0))
     density = found["contact_force_density"].sel(wheel=1)
     assert float(density.sum()) * 10.0 == pytest.approx(0.5 * 2e4**2, rel=3e-3)
     peak = 0.5 * 2e4**2 / (HANN * 10.0)
@@ -31,15 +31,15 @@ def test_the_density_of_a_sine_adds_up_to_its_mean_square(record, tone):
 
 
 def test_white_noise_has_the_density_it_was_made_with(record):
-    """Noise held over 20 us has the density ``2 sigma2 h``, here averaged over 39 segments."""
+    """Noise held over 20 us has the density ``2 sigma2 h``, here averaged over 19 segments."""
     rng = np.random.default_rng(2)
-    noise = rng.normal(0.0, 1e4, 100_001)
-    found = contact_force_spectrum(record(lambda _: 1e5 + noise, seconds=2.0))
+    noise = rng.normal(0.0, 1e4, 50_001)
+    found = contact_force_spectrum(record(lambda _: 1e5 + noise, seconds=1.0))
     density = found["contact_force_density"].sel(wheel=1)
     exact = 2.0 * 1e4**2 * 20e-6
-    spread = 1.0 / np.sqrt(39.0 * 0.5 * density.size)  # of the mean over the lines
+    spread = 1.0 / np.sqrt(19.0 * 0.5 * density.size)  # of the mean over the lines
     assert float(density.mean()) == pytest.approx(exact, rel=5.0 * spread)
-    assert float(density.min()) > 0.3 * exact
+    assert float(density.min()) > 0.15 * exact
 
 
 def test_it_is_one_sided_and_ends_where_the_samples_do(record, tone):

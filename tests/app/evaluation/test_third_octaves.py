@@ -66,12 +66,12 @@ def test_the_squares_of_the_bands_add_up_to_the_mean_square(record):
 
 def test_white_noise_rises_by_three_decibels_an_octave(record):
     """Its power is the density ``2 sigma2 h`` times the width of the band."""
-    noise = np.random.default_rng(4).normal(0.0, 1e4, 250_001)
-    passage = record(lambda _: 1e5 + noise, seconds=5.0)
+    noise = np.random.default_rng(4).normal(0.0, 1e4, 80_001)
+    passage = record(lambda _: 1e5 + noise, seconds=1.6)
     bands = third_octaves(passage)["contact_force_band"].sel(wheel=1)
     width = bands["band_frequency"] * (10.0**0.05 - 10.0**-0.05)
     exact = np.sqrt(2.0 * 1e4**2 * 20e-6 * width)
-    spread = 0.5 / np.sqrt(5.0 * width)  # of an effective value from so many lines
+    spread = 0.5 / np.sqrt(1.6 * width)  # of an effective value from so many lines
     assert (np.abs(bands / exact - 1.0) < 4.5 * spread + 0.01).all()
 
 
