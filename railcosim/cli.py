@@ -1,4 +1,4 @@
-"""The command line: `railcosim run`, `cosim`, `receptance` and the other commands."""
+"""The command line: `railcosim run`, `cosim` and the other commands."""
 
 import signal
 import sys
@@ -12,6 +12,8 @@ from .commands.check import check
 from .commands.compare import compare
 from .commands.cosim import cosim
 from .commands.endings import say
+from .commands.evaluate import evaluate
+from .commands.figures import figures
 from .commands.load_displacement import load_displacement
 from .commands.receptance import receptance
 from .commands.replay import replay
@@ -35,12 +37,14 @@ app = typer.Typer(
 COMMANDS = (
     run,
     verify,
-    sweep,
-    cosim,
+    evaluate,
     report,
     compare,
+    sweep,
+    figures,
     receptance,
     load_displacement,
+    cosim,
     build,
     replay,
     check,

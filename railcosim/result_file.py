@@ -1,4 +1,4 @@
-"""Reading the result of a passage back from its file."""
+"""Results read back from files."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def read_passage(path: Path) -> xr.Dataset:
-    """Read what `output.write_dataset` wrote of a passage as NetCDF.
+    """Read the result of a passage, which `output.write_dataset` wrote as NetCDF.
 
     Raises
     ------
