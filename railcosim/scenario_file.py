@@ -79,12 +79,10 @@ def from_toml(text: str) -> Scenario:
     Raises
     ------
     InputError
-        For an unknown key or a value that does not fit.
-    tomllib.TOMLDecodeError
-        For a text that is no TOML.
+        For a text that is no TOML, an unknown key or a value that does not fit.
     """
     values = no_values()
-    put_all(values, tomllib.loads(text), Path.cwd())
+    put_all(values, parse_toml(text, "scenario"), Path.cwd())
     return build_scenario(values)
 
 

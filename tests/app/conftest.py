@@ -36,6 +36,8 @@ def make_passage():
             series=values,
             attempts=attempts | {"cause": np.array(["accepted", "error"])},
             attributes={
+                "fmus": "native",
+                "contact": "vehicle",
                 "complete": int(complete),
                 "stop_reason": "it was interrupted",
                 "simulated_time": float(times[-1]),
