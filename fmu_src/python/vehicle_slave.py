@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vehicle_fmu.parameters import VehicleParameters
 from vehicle_fmu.vehicle_model import VehicleModel
 
-from .excitation import irregularity, make_flat, speed_law
+from .excitation import irregularity, make_flat, out_of_roundness, speed_law
 from .model_slave import LINEAR_INPUTS, ModelSlave
 from .vehicle_variables import VEHICLE, declare_vehicle
 
@@ -40,6 +40,7 @@ class VehicleSlave(ModelSlave):
             flat_table=table,
             speed=speed_law(parameters),
             irregularity=irregularity(parameters["rail_irregularity"]),
+            out_of_roundness=out_of_roundness(parameters, wheels=self.wheels),
         )
 
     def start_model(
