@@ -10,6 +10,7 @@ import xarray as xr
 from .run_record import ATTEMPT_COLUMNS
 from .scenario_file import to_toml
 from .signals import COMPRESSION, FORWARDS, SIGNALS
+from .surface_dataset import surface_dataset
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
     from .scenario import Scenario
     from .signals import Dimension
+    from .surface_tables import UnevenSurfaces
 
 
 def count(scenario: Scenario) -> dict[Dimension, int]:
@@ -36,6 +38,7 @@ def assemble(
     series: Mapping[str, NDArray[np.float64]],
     attempts: Mapping[str, NDArray[np.generic]],
     attributes: Mapping[str, str | int | float],
+    surfaces: UnevenSurfaces | None = None,
 ) -> xr.Dataset:
     """Label the records of a run.
 
@@ -51,12 +54,15 @@ def assemble(
         The columns `ATTEMPT_COLUMNS` of the step log, each of shape (m,); causes are texts.
     attributes : mapping
         Versions, identities of the FMUs, statistics.
+    surfaces : UnevenSurfaces, optional
+        What the wheels rolled over besides the flat.
 
     Returns
     -------
     xarray.Dataset
-        Dimensions ``time``, ``wheel``, ``sleeper``, ``gauge`` and ``attempt``; units, long name and
-        sign on every variable.
+        Dimensions ``time``, ``wheel``, ``sleeper``, ``gauge`` and ``attempt``, and where surfaces
+        are uneven ``rail_position`` and ``tread_angle``; units, long name and sign on every
+        variable.
     """
     variables = {
         signal.name: (
@@ -67,7 +73,7 @@ def assemble(
         for signal in SIGNALS
     }
     flat = series["wheel_position"][:, scenario.flat.wheel - 1]
-    return xr.Dataset(
+    result = xr.Dataset(
         variables | attempt_variables(attempts) | _constants(scenario),
         coords=_coordinates(scenario, times, flat - scenario.flat_position),
         attrs={
@@ -77,6 +83,9 @@ def assemble(
             **attributes,
         },
     )
+    if surfaces is None or surfaces.are_smooth:
+        return result
+    return result.merge(surface_dataset(surfaces), join="exact", compat="no_conflicts")
 
 
 def attempt_variables(attempts: Mapping[str, NDArray[np.generic]]) -> dict[str, object]:

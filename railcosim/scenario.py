@@ -7,7 +7,9 @@ from dataclasses import dataclass, field, replace
 
 from .errors import InputError
 from .master_section import Master
-from .sections import DEFAULT_SPEED_KMH, Flat, Run, Track, Vehicle
+from .rail_sections import RailSection
+from .sections import DEFAULT_SPEED_KMH, Flat, Run, Surface, Track, Vehicle
+from .wheel_sections import WheelSection
 
 BEHIND_MIDSPAN = 0.025
 """How far behind the middle of its bay the flat's centre meets the rail by default [m]."""
@@ -21,8 +23,12 @@ class Scenario:
 
     Attributes
     ----------
-    track, vehicle, flat, run, master
+    track, vehicle, flat, surface, run, master
         The sections of the scenario file.
+    irregularity : tuple
+        What the rail is uneven by; added up.
+    wheel_defect : tuple
+        What wheels are uneven by besides the flat; added up for every wheel.
 
     Raises
     ------
@@ -33,11 +39,15 @@ class Scenario:
     track: Track = field(default_factory=Track)
     vehicle: Vehicle = field(default_factory=Vehicle)
     flat: Flat = field(default_factory=Flat)
+    irregularity: tuple[RailSection, ...] = ()
+    wheel_defect: tuple[WheelSection, ...] = ()
+    surface: Surface = field(default_factory=Surface)
     run: Run = field(default_factory=Run)
     master: Master = field(default_factory=Master)
 
     def __post_init__(self) -> None:
         self._check_flat()
+        self._check_uneven_surfaces()
         self._check_start_of_track()
         self._check_end_of_track()
 
@@ -103,6 +113,25 @@ class Scenario:
                 f"flat.length is {flat.length:g} m but must be at most {track.length:g} m, the "
                 "length of the track: shorten the flat"
             )
+
+    def _check_uneven_surfaces(self) -> None:
+        """Refuse defects of wheels that there are not, and a rail that is given twice."""
+        for item in self.wheel_defect:
+            if item.wheel > self.vehicle.wheels:
+                raise InputError(
+                    f"wheel_defect.wheel is {item.wheel} but the vehicle has "
+                    f"{self.vehicle.wheels} wheels: choose one of them or raise vehicle.wheels"
+                )
+        if self.irregularity and self.vehicle.rail_irregularity:
+            raise InputError(
+                "vehicle.rail_irregularity and tables [[irregularity]] are both given: name the "
+                "file in a table of the kind csv"
+            )
+
+    @property
+    def is_smooth(self) -> bool:
+        """Whether rail and wheels have nothing but the flat."""
+        return not (self.irregularity or self.wheel_defect or self.vehicle.rail_irregularity)
 
     def _check_start_of_track(self) -> None:
         """Refuse a run that starts with a wheel before the track."""

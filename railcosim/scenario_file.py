@@ -9,11 +9,13 @@ from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from . import rail_sections, wheel_sections
 from .errors import InputError
-from .fields import holds_file
+from .fields import absolute_file
 from .master_section import Master
 from .scenario import Scenario
-from .sections import Flat, Run, Track, Vehicle
+from .sections import Flat, Run, Surface, Track, Vehicle
+from .table_lists import TableList, numbered
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -24,18 +26,26 @@ SECTIONS: Mapping[str, type[Any]] = {
     "flat": Flat,
     "run": Run,
     "master": Master,
+    "surface": Surface,
 }
 """Sections of a scenario file and the classes that check them."""
+
+LISTS: Mapping[str, TableList] = {
+    name: TableList(name=name, kinds=kinds)
+    for name, kinds in (
+        (rail_sections.SECTION, rail_sections.KINDS),
+        (wheel_sections.SECTION, wheel_sections.KINDS),
+    )
+}
+"""Tables that a scenario file may repeat, as ``[[irregularity]]``."""
 
 KEYS: Mapping[str, tuple[str, ...]] = {
     name: tuple(item.name for item in fields(kind)) for name, kind in SECTIONS.items()
 }
 """Keys of every section."""
 
-SHOWN = 80
-"""Characters of a wrong value that a message repeats."""
-
-_Values: TypeAlias = dict[str, dict[str, Any]]
+_Values: TypeAlias = dict[str, Any]
+"""Of every section a dictionary of its keys, of every list its tables."""
 
 
 def read_scenario(path: Path | None = None, overrides: Iterable[str] = ()) -> Scenario:
@@ -59,7 +69,7 @@ def read_scenario(path: Path | None = None, overrides: Iterable[str] = ()) -> Sc
     InputError
         For a missing or malformed file, an unknown key or a value that does not fit.
     """
-    values: _Values = {name: {} for name in SECTIONS}
+    values = _nothing()
     if path is not None:
         _put_all(values, _read_toml(path), path.parent)
     for text in overrides:
@@ -78,7 +88,7 @@ def from_toml(text: str) -> Scenario:
     tomllib.TOMLDecodeError
         For a text that is no TOML.
     """
-    values: _Values = {name: {} for name in SECTIONS}
+    values = _nothing()
     _put_all(values, tomllib.loads(text), Path.cwd())
     return _build(values)
 
@@ -97,6 +107,10 @@ def to_toml(scenario: Scenario) -> str:
         section = getattr(resolved, name)
         values = {item.name: getattr(section, item.name) for item in fields(kind)}
         blocks.append(section_to_toml(name, values))
+    for name in LISTS:
+        for item in getattr(resolved, name):
+            values = {key.name: getattr(item, key.name) for key in fields(item)}
+            blocks.append(section_to_toml(f"[{name}]", {"kind": item.kind} | values))
     return "\n".join(blocks)
 
 
@@ -110,13 +124,22 @@ def section_to_toml(name: str, values: Mapping[str, bool | float | str | None]) 
     return "\n".join([f"[{name}]", *lines]) + "\n"
 
 
+def _nothing() -> _Values:
+    return {name: {} for name in SECTIONS} | {name: [] for name in LISTS}
+
+
 def _build(values: _Values) -> Scenario:
-    return Scenario(**{name: kind(**values[name]) for name, kind in SECTIONS.items()})
+    parts: dict[str, Any] = {name: kind(**values[name]) for name, kind in SECTIONS.items()}
+    parts |= {name: tuple(map(kind.make, values[name])) for name, kind in LISTS.items()}
+    return Scenario(**parts)
 
 
 def _put_all(values: _Values, tables: Mapping[str, Any], folder: Path) -> None:
     """Put every key of a parsed file in its place."""
     for section, keys in tables.items():
+        if section in LISTS:
+            values[section] = LISTS[section].read(keys, folder)
+            continue
         _check_section(section, keys)
         for key, value in keys.items():
             _put(values, section, key, value, folder)
@@ -124,6 +147,10 @@ def _put_all(values: _Values, tables: Mapping[str, Any], folder: Path) -> None:
 
 def _put(values: _Values, section: str, key: str, value: object, folder: Path) -> None:
     """Put a key in its place, the path of a file made absolute."""
+    one = numbered(section)
+    if one is not None and one[0] in LISTS:
+        LISTS[one[0]].put(values[one[0]], one[1], key, value, folder)
+        return
     _check_section(section, {})
     if key not in KEYS[section]:
         name = f"{section}.{key}"
@@ -131,14 +158,7 @@ def _put(values: _Values, section: str, key: str, value: object, folder: Path) -
             f"{name} is no key of a scenario: did you mean {_nearest(name)}, or another key of "
             f"[{section}] ({_listed(KEYS[section])})?"
         )
-    if isinstance(value, str) and holds_file(SECTIONS[section], key, value):
-        try:
-            value = str((folder / Path(value).expanduser()).resolve())
-        except (OSError, ValueError, RuntimeError) as error:
-            raise InputError(
-                f"{section}.{key} is {value[:SHOWN]!r}, which is no usable path ({error})"
-            ) from error
-    values[section][key] = value
+    values[section][key] = absolute_file(SECTIONS[section], f"{section}.{key}", value, folder)
 
 
 def _read_toml(path: Path) -> dict[str, Any]:
@@ -170,6 +190,10 @@ def _parse_override(text: str) -> tuple[str, str, Any]:
 
 def _check_section(section: str, keys: object) -> None:
     """Refuse an unknown section, and a value where a section is due."""
+    if section in LISTS:
+        raise InputError(
+            f"{section} is a list of tables: name one of them, as in {section}[1].kind=csv"
+        )
     if section not in SECTIONS:
         raise InputError(
             f"{section} is no section of a scenario: did you mean {_nearest(section)}, or another "

@@ -9,6 +9,7 @@ from fmu_src.native.models import TRACK_CONSTANTS
 
 from .motion import initial_speed
 from .sections import Track
+from .surface_files import files_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 
     from .scenario import Scenario
     from .signals import ContactSide
+    from .surface_files import SurfaceFiles
 
 Value: TypeAlias = float | int | bool | str
 """What a parameter of an FMU may be."""
@@ -45,10 +47,12 @@ def track_values(
     contact: ContactSide = "vehicle",
     *,
     fixed: Collection[str] = (),
+    surfaces: SurfaceFiles | None = None,
 ) -> dict[str, Value]:
     """Return the parameters of the track FMU, with those of the contacts if it has them.
 
-    Those that are `fixed` in the FMU are left out.
+    Those that are `fixed` in the FMU are left out. The files of uneven surfaces are those that the
+    scenario names, or where it has to be composed, `surfaces`.
     """
     own = {name: value for name, value in _of_track(scenario).items() if name not in fixed}
     gauges = {
@@ -58,16 +62,23 @@ def track_values(
     values = {**own, **gauges, "initial_speed": initial_speed(law)}
     if contact == "vehicle":
         return values
-    values |= _contact_values(scenario)
+    values |= _contact_values(scenario, surfaces or files_of(scenario))
     if scenario.master.algorithm == "gauss_seidel":
         values["linear_inputs"] = True  # the vehicle has stepped when the track does
     return values
 
 
 def vehicle_values(
-    scenario: Scenario, law: SpeedLaw, contact: ContactSide = "vehicle"
+    scenario: Scenario,
+    law: SpeedLaw,
+    contact: ContactSide = "vehicle",
+    *,
+    surfaces: SurfaceFiles | None = None,
 ) -> dict[str, Value]:
-    """Return the parameters of the vehicle FMU, with those of the contacts if it has them."""
+    """Return the parameters of the vehicle FMU, with those of the contacts if it has them.
+
+    For `surfaces` see `track_values`.
+    """
     vehicle = scenario.vehicle
     motion: dict[str, Value] = {
         "speed": initial_speed(law),
@@ -77,19 +88,20 @@ def vehicle_values(
         "static_wheel_load": vehicle.static_wheel_load,
     }
     if contact == "vehicle":
-        return {**motion, "axle_base": vehicle.axle_base, **_contact_values(scenario)}
+        contacts = _contact_values(scenario, surfaces or files_of(scenario))
+        return {**motion, "axle_base": vehicle.axle_base, **contacts}
     offsets = {f"wheel[{k + 1}].offset": k * vehicle.axle_base for k in range(1, vehicle.wheels)}
     return {**motion, **offsets}
 
 
-def _contact_values(scenario: Scenario) -> dict[str, Value]:
+def _contact_values(scenario: Scenario, surfaces: SurfaceFiles) -> dict[str, Value]:
     """Return the parameters of contacts and surfaces, on either side."""
     vehicle, flat = scenario.vehicle, scenario.flat
     return {
         "static_wheel_load": vehicle.static_wheel_load,
         "wheel_radius": vehicle.wheel_radius,
         "hertz_coefficient": vehicle.hertz_coefficient,
-        "rail_irregularity": vehicle.rail_irregularity,
+        "rail_irregularity": surfaces.rail,
         "flat.shape": flat.shape,
         "flat.length": flat.length,
         "flat.depth": flat.depth,
@@ -97,4 +109,5 @@ def _contact_values(scenario: Scenario) -> dict[str, Value]:
         "flat.position": scenario.flat_position,
         "flat.periodic": flat.periodic,
         "flat.rolled": flat.rolled,
+        **{f"wheel[{k}].out_of_roundness": path for k, path in enumerate(surfaces.treads, start=1)},
     }

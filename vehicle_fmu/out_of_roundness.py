@@ -48,6 +48,10 @@ class OutOfRoundness:
         object.__setattr__(self, "angle", angle)
         object.__setattr__(self, "drop", drop)
 
+    def curve(self) -> Profile:
+        """Return the drop over the angle [rad]: a smooth monotone curve, again after every turn."""
+        return tread_along_rail(self, position=0.0, radius=1.0)
+
 
 def tread_along_rail(table: OutOfRoundness, *, position: float, radius: float) -> Profile:
     """Return the drop over the position x of the wheel along the rail.
