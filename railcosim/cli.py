@@ -12,6 +12,7 @@ from .commands.check import check
 from .commands.compare import compare
 from .commands.cosim import cosim
 from .commands.endings import say
+from .commands.irregularity import irregularity
 from .commands.load_displacement import load_displacement
 from .commands.receptance import receptance
 from .commands.replay import replay
@@ -29,7 +30,17 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-for command in (run, cosim, build, replay, check, compare, receptance, load_displacement):
+for command in (
+    run,
+    cosim,
+    build,
+    replay,
+    check,
+    compare,
+    receptance,
+    load_displacement,
+    irregularity,
+):
     app.command()(command)
 app.add_typer(tune, name="tune")
 

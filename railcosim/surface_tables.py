@@ -5,13 +5,14 @@ from __future__ import annotations
 import shutil
 import tempfile
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from vehicle_fmu.out_of_roundness import OutOfRoundness
 
 from .errors import RunError
+from .output import replacing
 from .surface_files import SurfaceFiles
 from .uneven_rail import compose_rail
 from .uneven_wheels import compose_treads
@@ -77,22 +78,26 @@ def written(
         yield SurfaceFiles(rail=named, treads=("",) * scenario.vehicle.wheels)
         return
     with _folder(replay) as folder:
-        try:
-            files = SurfaceFiles(
-                rail=named or _write(folder / "rail.csv", "position", rail),
-                treads=tuple(
-                    _write(folder / f"wheel{k}.csv", "angle", tread)
-                    for k, tread in enumerate(
-                        surfaces.treads or (None,) * scenario.vehicle.wheels, start=1
-                    )
-                ),
-            )
-        except OSError as error:
-            raise RunError(
-                f"the tables of rail and wheels cannot be written to {folder}: "
-                f"{error.strerror or error}; make room there"
-            ) from error
-        yield files
+        files = write_tables(folder, replace(surfaces, rail=rail))
+        treads = files.treads or ("",) * scenario.vehicle.wheels
+        yield SurfaceFiles(rail=named or files.rail, treads=treads)
+
+
+def write_tables(folder: Path, surfaces: UnevenSurfaces) -> SurfaceFiles:
+    """Write ``rail.csv`` and for every wheel that is not round ``wheel1.csv`` and so on.
+
+    Raises
+    ------
+    RunError
+        Where they cannot be written.
+    """
+    return SurfaceFiles(
+        rail=_write(folder / "rail.csv", "position", surfaces.rail),
+        treads=tuple(
+            _write(folder / f"wheel{k}.csv", "angle", tread)
+            for k, tread in enumerate(surfaces.treads, start=1)
+        ),
+    )
 
 
 @contextmanager
@@ -127,7 +132,7 @@ def _write(path: Path, name: str, table: RailIrregularity | OutOfRoundness | Non
         return ""
     x = table.angle if isinstance(table, OutOfRoundness) else table.position
     rows = (f"{a!r},{b!r}\n" for a, b in zip(x.tolist(), table.drop.tolist(), strict=True))
-    with path.open("w", encoding="ascii") as file:
+    with replacing(path) as temporary, temporary.open("w", encoding="ascii") as file:
         file.write(f"{name},drop\n")
         file.writelines(rows)
     return str(path)

@@ -17,7 +17,7 @@ from .input_tables import read_as
 from .irregularity.contact_filter import filter_along
 from .irregularity.rail_defects import corrugation, dip
 from .irregularity.spectra import fra, german, iso3095
-from .irregularity.synthesis import random_profile
+from .irregularity.synthesis import random_profile, signal_points
 from .irregularity.windows import onset, stretch
 from .rail_sections import (
     Corrugation,
@@ -40,6 +40,9 @@ if TYPE_CHECKING:
 MOST_POINTS = 2_000_000
 """Points of a table that an FMU still reads in a few seconds."""
 
+MOST_POINTS_OF_A_SIGNAL = 2**22
+"""Points of a random signal that is made in a second."""
+
 COARSEST = 0.05
 """Largest spacing of a composed rail [m]."""
 
@@ -49,8 +52,8 @@ POINTS_PER_WAVE = 40
 POINTS_PER_SHORTEST_WAVE = 10
 """Points in the shortest of many waves; it loses 0.3 dB to the models' curves, the others less."""
 
-POINTS_PER_DIP = 200
-"""Points in a dip of the rail."""
+POINTS_PER_DIP = 1000
+"""Points in a dip of the rail, whose kink would lose its bottom between fewer."""
 
 BEHIND_THE_END = 0.5
 """How far a composed rail reaches beyond the way of the wheels [m]."""
@@ -184,11 +187,20 @@ def _random(item: Iso3095Roughness | GermanTrack | FraTrack, length: float) -> P
             spectrum = german(item.disturbance)
         case _:
             spectrum = fra(item.track_class)
-    drop = random_profile(
-        spectrum,
-        shortest=item.shortest_wavelength,
-        longest=item.longest_wavelength,
-        length=length,
-        seed=item.seed,
-    )
+    waves = {
+        "shortest": item.shortest_wavelength,
+        "longest": item.longest_wavelength,
+        "length": length,
+    }
+    points = signal_points(**waves)
+    if points > MOST_POINTS_OF_A_SIGNAL:
+        raise InputError(
+            f"waves from {item.shortest_wavelength:g} to {item.longest_wavelength:g} m take "
+            f"{points} points, but at most {MOST_POINTS_OF_A_SIGNAL} can be used: leave the "
+            "shortest out, or divide them into two tables [[irregularity]] of the same kind"
+        )
+
+    def drop(x: NDArray[np.float64]) -> NDArray[np.float64]:
+        return random_profile(spectrum, **waves, seed=item.seed)(x)
+
     return Part(profile=drop, spacing=item.shortest_wavelength / POINTS_PER_SHORTEST_WAVE)

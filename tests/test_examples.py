@@ -10,8 +10,10 @@ from build_fmus import ensure_fmus
 from railcosim.builds import build_for
 from railcosim.cosim import run_system
 from railcosim.cosim_options import CosimOptions
+from railcosim.passage import run_passage
 from railcosim.passage_package import ensure_package
 from railcosim.scenario import Scenario
+from railcosim.scenario_file import read_scenario
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 TOLERANCES = EXAMPLES / "baselines" / "tolerances.toml"
@@ -63,6 +65,18 @@ def test_contact_on_track(tmp_path, baseline):
     rows = example["passage"](str(fmus.track), str(fmus.vehicle))
     assert max(row[1] for row in rows) == pytest.approx(234.31e3, rel=2e-3)
     baseline.check(coarse(rows, 4), TOLERANCES, name="contact_on_track")
+
+
+@pytest.mark.parametrize(
+    ("name", "peak", "smallest"),
+    [("uneven_rail", 173.35e3, 64.23e3), ("worn_wheels", 272.26e3, 27.03e3)],
+)
+def test_uneven_surfaces(tmp_path, name, peak, smallest):
+    """Forces of both wheels, by this implementation; tests/passage holds its parts to others."""
+    scenario = read_scenario(EXAMPLES / f"{name}.toml")
+    force = run_passage(scenario, fmus="native", directory=tmp_path)["contact_force"]
+    assert force.max() == pytest.approx(peak, rel=2e-3)
+    assert force.min() == pytest.approx(smallest, abs=500.0)
 
 
 def test_passage_as_a_system(tmp_path, baseline):

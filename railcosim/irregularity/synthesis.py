@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -14,6 +15,16 @@ WAVES = 50
 
 POINTS_PER_WAVE = 16
 """Fewest points of a signal in its shortest wave: a cubic spline is then off by 1e-4 of it."""
+
+
+def signal_points(*, shortest: float, longest: float, length: float) -> int:
+    """Return how many points a signal of `random_profile` is made of, a power of two."""
+    needed = POINTS_PER_WAVE * _period(longest, length) / shortest
+    return 1 << math.ceil(math.log2(needed))
+
+
+def _period(longest: float, length: float) -> float:
+    return max(WAVES * longest, length)
 
 
 def random_profile(
@@ -42,7 +53,7 @@ def random_profile(
     callable
         Signal [m] at positions [m], arrays of the same shape.
     """
-    period = max(WAVES * longest, length)
+    period = _period(longest, length)
     step = 2.0 * np.pi / period
     limits = 2.0 * np.pi / longest, 2.0 * np.pi / shortest
     line = np.arange(1, int(np.ceil(limits[1] / step)) + 1)
@@ -52,7 +63,7 @@ def random_profile(
     phase = np.random.default_rng(seed).uniform(0.0, 2.0 * np.pi, line.size)
     amplitude = np.sqrt(2.0 * spectrum(wavenumber) * width)
 
-    points = 2 ** int(np.ceil(np.log2(POINTS_PER_WAVE * period / shortest)))
+    points = signal_points(shortest=shortest, longest=longest, length=length)
     lines = np.zeros(points // 2 + 1, dtype=np.complex128)
     lines[line] = 0.5 * points * amplitude * np.exp(1j * phase)
     signal = np.fft.irfft(lines, points)
