@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from rich.table import Table
+from rich.text import Text
 
 from .uneven_rail import semi_axis
 
@@ -38,7 +39,7 @@ def surface_report(numbers: dict[str, Any]) -> Table:
     patch = 1e3 * numbers["contact_patch_length"]
     table = Table(caption=f"The contact patch is {patch:.1f} mm long under the static load.")
     for heading in ("surface", "points", "smallest [um]", "largest [um]", "r.m.s. [um]"):
-        table.add_column(heading, justify="left" if heading == "surface" else "right")
+        table.add_column(Text(heading), justify="left" if heading == "surface" else "right")
     rows = {"rail": numbers["rail"]} | {
         f"wheel {number}": row for number, row in numbers["wheels"].items()
     }
