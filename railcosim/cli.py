@@ -14,6 +14,7 @@ from .commands.cosim import cosim
 from .commands.endings import say
 from .commands.evaluate import evaluate
 from .commands.figures import figures
+from .commands.irregularity import irregularity
 from .commands.load_displacement import load_displacement
 from .commands.receptance import receptance
 from .commands.replay import replay
@@ -44,6 +45,7 @@ COMMANDS = (
     figures,
     receptance,
     load_displacement,
+    irregularity,
     cosim,
     build,
     replay,

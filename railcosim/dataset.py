@@ -10,6 +10,7 @@ import xarray as xr
 from .run_record import ATTEMPT_COLUMNS
 from .scenario_file import to_toml
 from .signals import COMPRESSION, FORWARDS, labels, signals_of
+from .surface_dataset import surface_dataset
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
     from .scenario import Scenario
     from .signals import Dimension
+    from .surface_tables import UnevenSurfaces
 
 
 def count(scenario: Scenario) -> dict[Dimension, int]:
@@ -39,6 +41,7 @@ def assemble(
     series: Mapping[str, NDArray[np.float64]],
     attempts: Mapping[str, NDArray[np.generic]],
     attributes: Mapping[str, str | int | float],
+    surfaces: UnevenSurfaces | None = None,
 ) -> xr.Dataset:
     """Label the records of a run.
 
@@ -54,12 +57,15 @@ def assemble(
         The columns `ATTEMPT_COLUMNS` of the step log, each of shape (m,); causes are texts.
     attributes : mapping
         Versions, identities of the FMUs, statistics.
+    surfaces : UnevenSurfaces, optional
+        What the wheels rolled over besides the flat.
 
     Returns
     -------
     xarray.Dataset
         Dimensions ``time``, ``wheel``, ``sleeper``, ``gauge`` and ``attempt``, with a suspended
-        vehicle ``bogie`` and ``car``; units, long name and sign on every variable.
+        vehicle ``bogie`` and ``car``, where surfaces are uneven ``rail_position`` and
+        ``tread_angle``; units, long name and sign on every variable.
     """
     variables = {
         signal.name: (
@@ -70,7 +76,7 @@ def assemble(
         for signal in signals_of(scenario)
     }
     flat = series["wheel_position"][:, scenario.flat.wheel - 1]
-    return xr.Dataset(
+    result = xr.Dataset(
         variables | attempt_variables(attempts) | _constants(scenario),
         coords=_coordinates(scenario, times, flat - scenario.flat_position),
         attrs={
@@ -80,6 +86,9 @@ def assemble(
             **attributes,
         },
     )
+    if surfaces is None or surfaces.are_smooth:
+        return result
+    return result.merge(surface_dataset(surfaces), join="exact", compat="no_conflicts")
 
 
 def attempt_variables(attempts: Mapping[str, NDArray[np.generic]]) -> dict[str, object]:

@@ -27,6 +27,7 @@ from .input_tables import check_profiles
 from .motion import speed_law, travel_time
 from .run_record import attempts, doubts, programs, statistics
 from .signals import signals_of
+from .surface_tables import compose, written
 from .watched_control import WatchedControl
 
 if TYPE_CHECKING:
@@ -96,6 +97,7 @@ def run_passage(
     scenario = with_steps_for(scenario, contact)
     law = speed_law(scenario.vehicle)
     check_profiles(scenario)
+    surfaces = compose(scenario)
     paths = build_for(scenario, fmus, contact=contact, directory=directory, notify=notify)
     provenance = _provenance(paths)
 
@@ -106,13 +108,19 @@ def run_passage(
             scenario,
             times=recorder.time,
             series=_series(scenario, recorder, contact),
+            surfaces=surfaces,
             attempts=attempts(outcome),
             attributes={"fmus": fmus, "contact": contact, **provenance, **statistics(outcome)},
         )
 
     try:
-        with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
-            sources = fmu_sources(scenario, paths, law, contact=contact, timeout=timeout)
+        with (
+            threadpool_limits(limits=1, user_api="blas"),  # the matrices are too small for more
+            written(scenario, surfaces, replay=replay) as files,
+        ):
+            sources = fmu_sources(
+                scenario, paths, law, contact=contact, timeout=timeout, surfaces=files
+            )
             system = join(sources, scenario.vehicle.wheels, contact)
             signals = [
                 path

@@ -7,8 +7,10 @@ from dataclasses import dataclass, field, replace
 
 from .errors import InputError
 from .master_section import Master
-from .sections import DEFAULT_SPEED_KMH, Flat, Run, Track, Vehicle
+from .rail_sections import RailSection
+from .sections import DEFAULT_SPEED_KMH, Flat, Run, Surface, Track, Vehicle
 from .suspension_section import Suspension, check_bodies
+from .wheel_sections import WheelSection
 
 BEHIND_MIDSPAN = 0.025
 """How far behind the middle of its bay the flat's centre meets the rail by default [m]."""
@@ -22,8 +24,12 @@ class Scenario:
 
     Attributes
     ----------
-    track, vehicle, suspension, flat, run, master
+    track, vehicle, suspension, flat, surface, run, master
         The sections of the scenario file.
+    irregularity : tuple
+        What the rail is uneven by; added up.
+    wheel_defect : tuple
+        What wheels are uneven by besides the flat; added up for every wheel.
 
     Raises
     ------
@@ -35,12 +41,16 @@ class Scenario:
     vehicle: Vehicle = field(default_factory=Vehicle)
     suspension: Suspension = field(default_factory=Suspension)
     flat: Flat = field(default_factory=Flat)
+    irregularity: tuple[RailSection, ...] = ()
+    wheel_defect: tuple[WheelSection, ...] = ()
+    surface: Surface = field(default_factory=Surface)
     run: Run = field(default_factory=Run)
     master: Master = field(default_factory=Master)
 
     def __post_init__(self) -> None:
         check_bodies(self.vehicle, self.suspension)
         self._check_flat()
+        self._check_uneven_surfaces()
         self._check_start_of_track()
         self._check_end_of_track()
 
@@ -106,6 +116,25 @@ class Scenario:
                 f"flat.length is {flat.length:g} m but must be at most {track.length:g} m, the "
                 "length of the track: shorten the flat"
             )
+
+    def _check_uneven_surfaces(self) -> None:
+        """Refuse defects of wheels that there are not, and a rail that is given twice."""
+        for item in self.wheel_defect:
+            if item.wheel > self.vehicle.wheels:
+                raise InputError(
+                    f"wheel_defect.wheel is {item.wheel} but the vehicle has "
+                    f"{self.vehicle.wheels} wheels: choose one of them or raise vehicle.wheels"
+                )
+        if self.irregularity and self.vehicle.rail_irregularity:
+            raise InputError(
+                "vehicle.rail_irregularity and tables [[irregularity]] are both given: name the "
+                "file in a table of the kind csv"
+            )
+
+    @property
+    def is_smooth(self) -> bool:
+        """Whether rail and wheels have nothing but the flat."""
+        return not (self.irregularity or self.wheel_defect or self.vehicle.rail_irregularity)
 
     def _check_start_of_track(self) -> None:
         """Refuse a run that starts with a wheel before the track."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
+from vehicle_fmu.hertz_coefficient import hertz_coefficient
 from vehicle_fmu.suspension_parameters import GRAVITY
 
 from .errors import InputError
@@ -16,6 +17,9 @@ MOST_DEGREES_OF_FREEDOM = 10_000
 
 DEFAULT_SPEED_KMH = 40.0
 """Speed of the demonstration example [km/h]."""
+
+RAIL_RADIUS = 0.3
+"""Transverse radius of the railhead of the demonstration example [m]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,7 +130,13 @@ class Vehicle:
     wheel_radius : float
         Wheel radius [m].
     hertz_coefficient : float
-        Contact force per compression to the power 3/2 [N/m1.5].
+        Contact force per compression to the power 3/2 [N/m1.5]; that of the radii where
+        ``rail_radius`` is given.
+    rail_radius : float, optional
+        Transverse radius of the railhead [m]; with it the Hertz coefficient follows from both
+        radii and the material. The contact patch is that of 0.3 m without.
+    youngs_modulus, poissons_ratio : float
+        Material of wheel and rail [Pa], [1].
     rail_irregularity : str
         CSV file with the columns position [m] and drop [m] of the railhead, downwards positive;
         empty for a smooth rail.
@@ -144,10 +154,15 @@ class Vehicle:
     bogie_distance: Annotated[float, Number(unit="m", above=0.0)] = 19.0
     wheel_radius: Annotated[float, Number(unit="m", above=0.0)] = 0.45
     hertz_coefficient: Annotated[float, Number(unit="N/m1.5", above=0.0)] = 9.17e10
+    rail_radius: Annotated[float | None, Number(unit="m", at_least=0.01, at_most=100.0)] = None
+    youngs_modulus: Annotated[float, Number(unit="Pa", above=0.0)] = 206e9
+    poissons_ratio: Annotated[float, Number(at_least=0.0, at_most=0.5)] = 0.3
     rail_irregularity: Annotated[str, CsvFile()] = ""
 
     def __post_init__(self) -> None:
         check_fields(self, "vehicle")
+        if self.rail_radius is not None:
+            self._take_coefficient(self.rail_radius)
         if self.speed_table and self.speed_kmh is not None:
             raise InputError(
                 f"vehicle.speed_kmh = {self.speed_kmh:g} and vehicle.speed_table = "
@@ -173,6 +188,26 @@ class Vehicle:
             for j in range(self.bogies)
             for i in range(share)
         )
+
+    def _take_coefficient(self, rail_radius: float) -> None:
+        """Work the Hertz coefficient out, unless another one is given."""
+        try:
+            coefficient = hertz_coefficient(
+                wheel_radius=self.wheel_radius,
+                rail_radius=rail_radius,
+                youngs_modulus=self.youngs_modulus,
+                poissons_ratio=self.poissons_ratio,
+            )
+        except ValueError as error:
+            raise InputError(f"vehicle.rail_radius: {error}") from error
+        default = type(self)().hertz_coefficient
+        if self.hertz_coefficient not in {default, coefficient}:
+            raise InputError(
+                f"vehicle.hertz_coefficient is {self.hertz_coefficient:g} N/m1.5 but that of "
+                f"vehicle.rail_radius = {rail_radius:g} is {coefficient:g} N/m1.5: leave one of "
+                "them out"
+            )
+        object.__setattr__(self, "hertz_coefficient", coefficient)
 
     @property
     def static_wheel_load(self) -> float:
@@ -242,3 +277,24 @@ class Run:
 
     def __post_init__(self) -> None:
         check_fields(self, "run")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Surface:
+    """Keys of ``[surface]``: how the tables of irregularities and wheel defects are used.
+
+    Attributes
+    ----------
+    ramp : float
+        Distance over which the irregularities of the rail set in, from the start of the leading
+        wheel [m].
+    contact_filter : bool
+        Whether waves are weakened that are not much longer than the contact patch; flats and
+        spalls are left as they are.
+    """
+
+    ramp: Annotated[float, Number(unit="m", at_least=0.0)] = 1.0
+    contact_filter: bool = False
+
+    def __post_init__(self) -> None:
+        check_fields(self, "surface")

@@ -67,6 +67,18 @@ def test_contact_on_track(tmp_path, baseline):
     baseline.check(coarse(rows, 4), TOLERANCES, name="contact_on_track")
 
 
+@pytest.mark.parametrize(
+    ("name", "peak", "smallest"),
+    [("uneven_rail", 173.35e3, 64.23e3), ("worn_wheels", 272.26e3, 27.03e3)],
+)
+def test_uneven_surfaces(tmp_path, name, peak, smallest):
+    """Forces of both wheels, by this implementation; tests/passage holds its parts to others."""
+    scenario = read_scenario(EXAMPLES / f"{name}.toml")
+    force = run_passage(scenario, fmus="native", directory=tmp_path)["contact_force"]
+    assert force.max() == pytest.approx(peak, rel=2e-3)
+    assert force.min() == pytest.approx(smallest, abs=500.0)
+
+
 def test_passage_as_a_system(tmp_path, baseline):
     """Native FMUs, whose results are those of the Python ones, up to 50 ms after the strike."""
     fmus = build_for(Scenario(), "native", directory=tmp_path)

@@ -1,9 +1,11 @@
 """What the wheels roll over: tread and railhead drops under each wheel at the stage times."""
 
+from collections.abc import Sequence
 from functools import cached_property
 
 from .integration import substeps_of
 from .irregularity import RailIrregularity
+from .out_of_roundness import OutOfRoundness
 from .parameters import FlatParameters, VehicleParameters
 from .speed import SpeedLaw
 from .surfaces import surface_profiles
@@ -17,7 +19,7 @@ class Excitation:
     ----------
     parameters : VehicleParameters
         Start position, wheel offsets, wheel radius and longest substep.
-    flat, flat_table, irregularity, speed
+    flat, flat_table, irregularity, out_of_roundness, speed
         As for `VehicleModel`, already checked.
 
     Notes
@@ -33,12 +35,14 @@ class Excitation:
         flat: FlatParameters,
         flat_table: WheelProfileTable | None,
         irregularity: RailIrregularity | None,
+        out_of_roundness: Sequence[OutOfRoundness | None],
         speed: SpeedLaw,
     ) -> None:
         self._parameters = parameters
         self._flat = flat
         self._flat_table = flat_table
         self._irregularity = irregularity
+        self._out_of_roundness = tuple(out_of_roundness)
         self._speed = speed
         self._lags = parameters.offsets
         self._last_step: tuple[float, float, float] | None = None
@@ -93,6 +97,7 @@ class Excitation:
             self._flat,
             self._flat_table,
             self._irregularity,
+            out_of_roundness=self._out_of_roundness,
             wheels=self._parameters.wheels,
             radius=self._parameters.wheel_radius,
         )

@@ -10,9 +10,11 @@ from .contact import hertz_compression, hertz_force
 from .excitation import Excitation
 from .integration import integrate_wheel
 from .irregularity import RailIrregularity
+from .out_of_roundness import OutOfRoundness
 from .parameters import FlatParameters, VehicleParameters
 from .running_surface import checked_rail_displacement, surface_over_step
 from .speed import SpeedLaw
+from .surfaces import check_out_of_roundness
 from .validation import FloatArray, require_position, require_step
 from .wheel_profile import WheelProfileTable, check_flat
 
@@ -41,12 +43,15 @@ class VehicleModel:
         The measured profile of a flat of shape "table".
     irregularity : RailIrregularity, optional
         The railhead's irregularity; a perfect rail without.
+    out_of_roundness : sequence of OutOfRoundness or None, optional
+        Of every wheel, None for a round one; all are round without. Angle zero meets the rail
+        where the centre of the flat does.
 
     Raises
     ------
     ValueError
-        If the flat is on no wheel of this vehicle, does not fit on the wheel, or its shape and
-        table do not go together.
+        If the flat is on no wheel of this vehicle, does not fit on the wheel, its shape and
+        table do not go together, or the number of tables is not that of the wheels.
 
     Notes
     -----
@@ -62,11 +67,18 @@ class VehicleModel:
         speed: SpeedLaw,
         flat_table: WheelProfileTable | None = None,
         irregularity: RailIrregularity | None = None,
+        out_of_roundness: Sequence[OutOfRoundness | None] = (),
     ) -> None:
         check_flat(flat, flat_table, radius=parameters.wheel_radius, wheels=parameters.wheels)
+        check_out_of_roundness(out_of_roundness, wheels=parameters.wheels)
         self.parameters = parameters
         self._excitation = Excitation(
-            parameters, flat=flat, flat_table=flat_table, irregularity=irregularity, speed=speed
+            parameters,
+            flat=flat,
+            flat_table=flat_table,
+            irregularity=irregularity,
+            out_of_roundness=out_of_roundness,
+            speed=speed,
         )
         self._start = self._time = math.nan
         self._displacement: list[float] = []

@@ -51,7 +51,7 @@ ON_TRACK = (
 )
 TRACK = (*ON_TRACK, "track.c", "track_derivative.c")
 MOTION = ("curve.c", "motion.c", "table_file.c")
-SURFACES = ("curve.c", "flat.c", "surfaces.c", "table_file.c")
+SURFACES = ("curve.c", "flat.c", "surfaces.c", "table_file.c", "tread.c")
 SUSPENSION = ("suspension.c", "suspension_setup.c")
 VEHICLE = (
     *dict.fromkeys((*MOTION, *SURFACES)),

@@ -12,7 +12,7 @@ from vehicle_fmu.parameters import VehicleParameters
 from vehicle_fmu.suspended_vehicle import SuspendedVehicle
 from vehicle_fmu.vehicle_model import VehicleModel
 
-from .excitation import irregularity, make_flat, speed_law, wheel_offsets
+from .excitation import irregularity, make_flat, out_of_roundness, speed_law, wheel_offsets
 from .model_slave import LINEAR_INPUTS, ModelSlave
 from .suspended import make_suspension, read_bodies
 from .vehicle_variables import VEHICLE, declare_vehicle
@@ -43,6 +43,7 @@ class VehicleSlave(ModelSlave):
             "flat_table": table,
             "speed": speed_law(parameters),
             "irregularity": irregularity(parameters["rail_irregularity"]),
+            "out_of_roundness": out_of_roundness(parameters, wheels=self.wheels),
         }
         suspension = make_suspension(parameters, offsets=offsets, bogies=self.bogies)
         if suspension is None:

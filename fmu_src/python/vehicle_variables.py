@@ -19,11 +19,15 @@ VEHICLE = (
     ("initial_position", "m", "Track position of wheel 1, the leading one, at the start"),
     ("substep", "s", "Longest internal integration step"),
 )
+FLAT_POSITION = (
+    "Track position at which the centre of the flat meets the rail, and the angle zero of every "
+    "out-of-roundness"
+)
 FLAT = (
     ("length", "m", "Length of the flat along the tread"),
     ("depth", "m", "Largest drop of the tread; a chord's follows from its length"),
     ("wheel", "", "The wheel that has the flat, counted from 1"),
-    ("position", "m", "Track position at which the centre of the flat meets the rail"),
+    ("position", "m", FLAT_POSITION),
     ("periodic", "", "Whether the flat meets the rail at every turn, or once only"),
     ("rolled", "", "Whether the wheel rolls over the profile, or follows it as it is"),
 )
@@ -41,7 +45,7 @@ def declare_vehicle(wheels: int, *, bogies: int = 1) -> list[Variable]:
         *vehicle_parameters(*(name for name, _, _ in VEHICLE)),
         *offset_parameters(wheels),
         *suspension_parameters(bogies),
-        *excitation_parameters(),
+        *excitation_parameters(wheels),
         *_inputs(wheels),
         *_outputs(wheels),
         *body_outputs(wheels, bogies),
@@ -83,8 +87,8 @@ def speed_parameters() -> list[Variable]:
     ]
 
 
-def excitation_parameters() -> list[Variable]:
-    """Irregularity of the railhead and flat of a wheel."""
+def excitation_parameters(wheels: int) -> list[Variable]:
+    """Irregularity of the railhead, flat of a wheel and out-of-roundness of every wheel."""
     flat = FlatParameters(shape="haversine")
     return [
         Variable(
@@ -96,6 +100,17 @@ def excitation_parameters() -> list[Variable]:
         ),
         Variable(name="flat.shape", causality="parameter", start=flat.shape, description=SHAPE),
         *own_parameters(flat, "flat.", FLAT),
+        *(
+            Variable(
+                name=f"wheel[{i + 1}].out_of_roundness",
+                causality="parameter",
+                start="",
+                description="Path of a CSV file with angle [rad] around the tread of wheel "
+                f"{i + 1}, from 0 to below 2 pi, and its drop [m], positive where metal is "
+                "missing; empty: a round wheel",
+            )
+            for i in range(wheels)
+        ),
     ]
 
 

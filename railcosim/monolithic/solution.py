@@ -106,6 +106,11 @@ def solve(
             "the monolithic solution knows rigid wheels under their loads only: leave "
             "vehicle.model at masses and suspension.tread_mass at 0, or run the co-simulation"
         )
+    if scenario.irregularity or scenario.wheel_defect:
+        raise InputError(
+            "the monolithic solution knows the flat and vehicle.rail_irregularity only: leave "
+            "[[irregularity]] and [[wheel_defect]] out, or run the co-simulation"
+        )
     check_profiles(scenario)
     with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
         system, state = make_system(scenario, model=model, contact_form=contact_form)

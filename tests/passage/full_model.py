@@ -30,6 +30,7 @@ class Passage:
     position: np.ndarray
     force: np.ndarray
     sleeper: np.ndarray
+    second_force: np.ndarray
 
 
 class FullModel:
@@ -70,7 +71,17 @@ class FullModel:
             force = force + np.linalg.solve(jacobian, value - force)
         return linear - flexibility @ force
 
-    def run(self, *, speed, drop, start=12.7, stop=19.2, axle_base=1.8, step=2e-5):
+    def run(
+        self,
+        *,
+        speed,
+        drop,
+        second_drop=lambda _: 0.0,
+        start=12.7,
+        stop=19.2,
+        axle_base=1.8,
+        step=2e-5,
+    ):
         mass, damping, stiffness = (
             self.matrices.mass,
             self.matrices.damping,
@@ -86,6 +97,7 @@ class FullModel:
         x, v = self.equilibrium(start + offsets), np.zeros(self.size)
         a = np.zeros(self.size)
         z = self.contact_columns(start + offsets).T @ x + (LOAD / HERTZ) ** (2 / 3)
+        z += [drop(start), second_drop(start - axle_base)]
         zv, za = np.zeros(2), np.zeros(2)
         force, increment = np.full(2, LOAD), self.ballast(x[self.sleeper], 0.0)[0]
         wheel_response = step**2 / (4.0 * MASS)
@@ -98,7 +110,7 @@ class FullModel:
             right = mass @ predicted + damping @ (2.0 / step * x + v)
             free = cho_solve_banded((factor, True), right)
             free_wheel = z + step * zv + step**2 / 4.0 * za + wheel_response * LOAD
-            surface = np.array([drop(at[0]), 0.0])
+            surface = np.array([drop(at[0]), second_drop(at[1])])
             for _ in range(30):
                 new = free + columns_response @ force - response @ increment
                 new_v = 2.0 / step * (new - x) - v
@@ -127,6 +139,6 @@ class FullModel:
             za_new = (LOAD - force) / MASS
             z, zv = free_wheel - wheel_response * force, zv + 0.5 * step * (za + za_new)
             za = za_new
-            history.append((at[0], force[0], x[self.sleeper].max()))
+            history.append((at[0], force[0], x[self.sleeper].max(), force[1]))
         columns = np.array(history).T
         return Passage(*columns)

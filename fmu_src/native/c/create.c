@@ -119,12 +119,15 @@ static rc_status set_start_values(rc_model *model)
             numbers += group->count;
             continue;
         }
-        const char *zero = text == NULL ? NULL : memchr(text, 0, (size_t)(end - text));
-        if (zero == NULL || zero - text >= RC_TEXT_SIZE)
-            return rc_fail(model, RC_ERROR, "the resource has no start value of %s; build the "
-                                            "FMU again", group->name);
-        memcpy(model->texts + RC_TEXT_SIZE * model->slots[g], text, (size_t)(zero - text));
-        text = zero + 1;
+        for (uint32_t i = 0; i < group->count; ++i) {
+            const char *zero = text == NULL ? NULL : memchr(text, 0, (size_t)(end - text));
+            if (zero == NULL || zero - text >= RC_TEXT_SIZE)
+                return rc_fail(model, RC_ERROR, "the resource has no start value of %s; build the "
+                                                "FMU again", group->name);
+            memcpy(model->texts + RC_TEXT_SIZE * (model->slots[g] + i), text,
+                   (size_t)(zero - text));
+            text = zero + 1;
+        }
     }
     if (text != end)
         return rc_fail(model, RC_ERROR, "the resource has more start texts than the model; build "

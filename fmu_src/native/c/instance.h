@@ -89,6 +89,7 @@ static inline const double *rc_values(const rc_model *model, size_t group)
     return model->values + model->slots[group];
 }
 
+/* The first text of a group; the next ones are RC_TEXT_SIZE bytes further on each. */
 static inline const char *rc_text(const rc_model *model, size_t group)
 {
     return model->texts + RC_TEXT_SIZE * model->slots[group];
