@@ -25,6 +25,7 @@ from .errors import InputError, RunError
 from .evidence import keeping_evidence
 from .input_tables import check_profiles
 from .motion import speed_law, travel_time
+from .passing_sleepers import show_sleepers
 from .run_record import attempts, doubts, programs, statistics
 from .signals import SIGNALS
 from .watched_control import WatchedControl
@@ -115,7 +116,7 @@ def run_passage(
             sources = fmu_sources(scenario, paths, law, contact=contact, timeout=timeout)
             system = join(sources, scenario.vehicle.wheels, contact)
             signals = [path for signal in SIGNALS for path in _paths(scenario, signal, contact)]
-            recorder = Recorder(signals + _origins(scenario, contact))
+            recorder = Recorder(signals + _origins(scenario, contact) + _window(scenario))
             case = _case(scenario, law, system, sources, recorder, contact=contact)
             master = _master(system, case, recorder, report=report)
             with keeping_evidence(case, replay, label):
@@ -178,6 +179,11 @@ def _origins(scenario: Scenario, contact: ContactSide) -> list[str]:
     return [f"track.wheel[{k}].static_displacement" for k in range(1, wheels + 1)]
 
 
+def _window(scenario: Scenario) -> list[str]:
+    """Name what tells which sleepers an endless track holds."""
+    return ["track.window_position"] if scenario.track.endless else []
+
+
 def _series(
     scenario: Scenario, recorder: Recorder, contact: ContactSide
 ) -> dict[str, NDArray[np.float64]]:
@@ -190,6 +196,8 @@ def _series(
     }
     for wheel, path in enumerate(_origins(scenario, contact)):
         series["wheel_displacement"][:, wheel] += recorder[path]
+    for path in _window(scenario):
+        show_sleepers(series, recorder[path], scenario)
     return series
 
 

@@ -101,6 +101,11 @@ def solve(
     ):
         if value not in get_args(kind):
             raise InputError(f"{name} is {value!r} but must be one of {', '.join(get_args(kind))}")
+    if scenario.track.endless:
+        raise InputError(
+            "track.endless is true but this solution holds the whole track: leave it out, with as "
+            "many track.bays as the run takes"
+        )
     check_profiles(scenario)
     with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
         system, state = make_system(scenario, model=model, contact_form=contact_form)
