@@ -43,7 +43,7 @@ def test_the_package_runs_the_same_passage(fmus, tmp_path):
             scale = 1e-9 * np.abs(expected).max()
             assert system[signal.path(k)].to_numpy() == pytest.approx(expected, rel=0, abs=scale)
             left.remove(signal.path(k))
-    assert left == set()
+    assert left == {"track.window_position"}  # only a result of an endless track needs it
 
 
 def test_the_package_with_contact_on_the_track_runs_the_same_passage(tmp_path):
