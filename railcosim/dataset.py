@@ -120,7 +120,7 @@ def _coordinates(
         for dim, n in count(scenario).items()
     }
     spacing = scenario.track.sleeper_spacing
-    sleepers = spacing * np.arange(1, scenario.track.bays)
+    sleepers = spacing * (scenario.first_bay + np.arange(1, scenario.track.bays))
     gauges = np.array(scenario.gauge_positions)
     return numbers | {
         "time": ("time", times, labels("s", "time since the start of the run")),

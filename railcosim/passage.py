@@ -25,6 +25,7 @@ from .errors import InputError, RunError
 from .evidence import keeping_evidence
 from .input_tables import check_profiles
 from .motion import speed_law, travel_time
+from .passing_sleepers import show_sleepers
 from .run_record import attempts, doubts, programs, statistics
 from .signals import signals_of
 from .surface_tables import compose, written
@@ -127,7 +128,7 @@ def run_passage(
                 for signal in signals_of(scenario)
                 for path in _paths(scenario, signal, contact)
             ]
-            recorder = Recorder(signals + _origins(scenario, contact))
+            recorder = Recorder(signals + _origins(scenario, contact) + _window(scenario))
             case = _case(scenario, law, system, sources, recorder, contact=contact)
             master = _master(system, case, recorder, report=report)
             with keeping_evidence(case, replay, label):
@@ -190,6 +191,11 @@ def _origins(scenario: Scenario, contact: ContactSide) -> list[str]:
     return [f"track.wheel[{k}].static_displacement" for k in range(1, wheels + 1)]
 
 
+def _window(scenario: Scenario) -> list[str]:
+    """Name what tells which sleepers an endless track holds."""
+    return ["track.window_position"] if scenario.track.endless else []
+
+
 def _series(
     scenario: Scenario, recorder: Recorder, contact: ContactSide
 ) -> dict[str, NDArray[np.float64]]:
@@ -202,6 +208,8 @@ def _series(
     }
     for wheel, path in enumerate(_origins(scenario, contact)):
         series["wheel_displacement"][:, wheel] += recorder[path]
+    for path in _window(scenario):
+        show_sleepers(series, recorder[path], scenario)
     return series
 
 

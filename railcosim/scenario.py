@@ -77,7 +77,14 @@ class Scenario:
     def struck_bay(self) -> int:
         """Bay that holds the flat's position, counted from 1."""
         bay = math.floor(self.flat_position / self.track.sleeper_spacing) + 1
+        if self.track.endless:
+            return bay
         return min(bay, self.track.bays)  # not one more where the quotient is rounded up
+
+    @property
+    def first_bay(self) -> int:
+        """Bays before those whose sleepers the result shows: the ones around an endless flat."""
+        return self.struck_bay - (self.track.bays // 2 + 1) if self.track.endless else 0
 
     @property
     def gauge_positions(self) -> tuple[float, float, float]:
@@ -105,7 +112,7 @@ class Scenario:
                 f"flat.wheel is {flat.wheel} but the vehicle has {vehicle.wheels} wheels: choose "
                 "one of them or raise vehicle.wheels"
             )
-        if not 0.0 <= self.flat_position <= track.length:
+        if not (track.endless or 0.0 <= self.flat_position <= track.length):
             raise InputError(
                 f"flat.position is {self.flat_position:g} m but the track reaches from 0 m to "
                 f"{track.length:g} m: put the flat on the track or raise track.bays"
@@ -137,7 +144,7 @@ class Scenario:
         return not (self.irregularity or self.wheel_defect or self.vehicle.rail_irregularity)
 
     def _check_start_of_track(self) -> None:
-        """Refuse a run that starts with a wheel before the track."""
+        """Refuse a run that starts with a wheel before 0 m, where the track begins."""
         wheel = self.vehicle.wheels
         start = self.start_position - self.vehicle.offsets[-1]
         if start >= 0.0:
@@ -147,7 +154,7 @@ class Scenario:
         position = -_rounded_down(start - self.flat_position)
         remedy += (
             f"move flat.position to at least {position:g} m"
-            if position < self.track.length
+            if self.track.endless or position < self.track.length
             else "raise track.bays"
         )
         raise InputError(
@@ -155,7 +162,9 @@ class Scenario:
         )
 
     def _check_end_of_track(self) -> None:
-        """Refuse a run that leads a wheel beyond the track."""
+        """Refuse a run that leads a wheel beyond the track, which an endless one has no end for."""
+        if self.track.endless:
+            return
         end = self.start_position + self.distance
         beyond = end - self.track.length
         if beyond <= 0.0:
@@ -167,7 +176,7 @@ class Scenario:
             remedy += f"move flat.position to at most {position:g} m "
         raise InputError(
             f"wheel 1 would end at {end:g} m but the track ends at {self.track.length:g} m: "
-            f"{remedy}{'or ' if remedy else ''}raise track.bays"
+            f"{remedy}{'or ' if remedy else ''}raise track.bays, or set track.endless"
         )
 
 

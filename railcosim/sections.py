@@ -50,6 +50,8 @@ class Track:
         Whether the static part of the other modes is kept, Eq. (13).
     supports_per_wheel : int
         Number of nearest supports with state-dependent forces.
+    endless : bool
+        Whether the track goes on without end, its bays being those around the wheels at any time.
     """
 
     bays: Annotated[int, Number(unit="bays", at_least=2, at_most=10_000)] = 50
@@ -71,6 +73,7 @@ class Track:
     mode_pairs: Annotated[int | None, Number(unit="pairs", at_least=1)] = None
     residual_flexibility: bool = True
     supports_per_wheel: Annotated[int, Number(unit="supports", at_least=1)] = 6
+    endless: bool = False
 
     def __post_init__(self) -> None:
         check_fields(self, "track")

@@ -88,7 +88,9 @@ def compose_rail(scenario: Scenario) -> RailIrregularity | None:
         return read_as(RailIrregularity, file, ("position", "drop"))
     if not scenario.irregularity:
         return None
-    parts = [_part(item, scenario.track.length) for item in scenario.irregularity]
+    parts = [
+        _part(item, max(scenario.track.length, scenario.distance)) for item in scenario.irregularity
+    ]
     spacing = min(COARSEST, *(part.spacing for part in parts))
     position = _positions(scenario, spacing)
     drop = np.zeros_like(position)

@@ -25,6 +25,8 @@ class TrackState:
         State-dependent forces of ballast and pads [N] and their slope in the last step [N/s].
     modal, load : (S,) complex array
         Modal states ``q`` and modal loads ``Q``.
+    offset : (1,) float array
+        Bays by which the window of an endless track has moved; 0 for an ordinary one.
     """
 
     __slots__ = (
@@ -36,15 +38,17 @@ class TrackState:
         "increment_rate",
         "load",
         "modal",
+        "offset",
         "position",
         "speed",
     )
 
     def __init__(self, *, wheels: int, components: int, modes: int) -> None:
-        self.flat: FloatArray = np.zeros(5 * wheels + 2 * components + 4 * modes)
-        lengths = [wheels] * 5 + [components] * 2 + [2 * modes] * 2
+        self.flat: FloatArray = np.zeros(5 * wheels + 2 * components + 4 * modes + 1)
+        lengths = [wheels] * 5 + [components] * 2 + [2 * modes] * 2 + [1]
         parts = np.split(self.flat, np.cumsum(lengths)[:-1])  # views, not copies
         self.position, self.speed, self.force, self.force_rate, self.displacement = parts[:5]
         self.increment, self.increment_rate = parts[5:7]
         self.modal: ComplexArray = parts[7].view(np.complex128)
         self.load: ComplexArray = parts[8].view(np.complex128)
+        self.offset = parts[9]

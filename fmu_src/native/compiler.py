@@ -48,6 +48,8 @@ ON_TRACK = (
     "supports.c",
     "track_memory.c",
     "track_setup.c",
+    "window.c",
+    "window_shift.c",
 )
 TRACK = (*ON_TRACK, "track.c", "track_derivative.c")
 MOTION = ("curve.c", "motion.c", "table_file.c")

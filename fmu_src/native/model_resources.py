@@ -16,7 +16,7 @@ from fmu_src.python.track_variables import TABLE_1, declare_track
 from fmu_src.python.variables import Variable
 from fmu_src.python.vehicle_variables import declare_vehicle
 from track_fmu.assembly import assemble
-from track_fmu.beam_element import FloatArray, shear_parameter
+from track_fmu.beam_element import FloatArray, mass_matrix, shear_parameter
 from track_fmu.eigensolver import ComplexArray
 from track_fmu.parameters import TrackParameters
 from track_fmu.reduction import ReducedTrack, reduce_track
@@ -68,6 +68,7 @@ def track_resource(
             dtype=np.int64,
         ),
         "numbers": _numbers(parameters),
+        "inertia": _inertia(parameters),
     }
     return pack(sections | _modes(reduced, half) | start_values(variables, fixed))
 
@@ -107,6 +108,12 @@ def _numbers(parameters: TrackParameters) -> FloatArray:
             parameters.ballast_damping,
         ]
     )
+
+
+def _inertia(parameters: TrackParameters) -> FloatArray:
+    """Mass matrix of an element, by rows, then the mass of a sleeper: what moves a window."""
+    element = mass_matrix(parameters.section, parameters.element_length)
+    return np.append(element, parameters.sleeper_mass)
 
 
 def _modes(reduced: ReducedTrack, half: int) -> dict[str, Section]:

@@ -108,6 +108,13 @@ def track_parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
             description="Speed with which the static deflection moves along at the start: that of "
             "the wheels; 0 for wheels that stand",
         ),
+        Variable(
+            name="endless",
+            causality="parameter",
+            start=False,
+            description="Whether the track goes on without end in both directions: supports are "
+            "then numbered from window_position on, which moves with the wheels by whole bays",
+        ),
     ]
     middle, offsets = _middle(structure), [0.0, -0.5, 0.5]
     for k in range(gauges):
@@ -181,7 +188,7 @@ def track_outputs(
         ("ballast", "force", "ballast_force", supports, "N", 1e4,
          "Force on the ballast under sleeper {}, compression positive"),
     )  # fmt: skip
-    return [
+    outputs = [
         Variable(
             name=f"{part}[{i + 1}].{name}",
             causality="output",
@@ -195,6 +202,17 @@ def track_outputs(
         for part, name, group, count, unit, nominal, description in kinds
         for i in range(count)
     ]
+    window = Variable(
+        name="window_position",
+        causality="output",
+        group="window_position",
+        unit="m",
+        nominal=1.0,
+        description="Where the held part of an endless track begins: sleeper k stands k sleeper "
+        "spacings further on; 0 for an ordinary track",
+        initial_dependencies=known,
+    )
+    return [*outputs, window]
 
 
 def _middle(structure: TrackParameters) -> float:

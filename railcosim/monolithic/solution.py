@@ -101,6 +101,11 @@ def solve(
     ):
         if value not in get_args(kind):
             raise InputError(f"{name} is {value!r} but must be one of {', '.join(get_args(kind))}")
+    if scenario.track.endless:
+        raise InputError(
+            "track.endless is true but this solution holds the whole track: leave it out, with as "
+            "many track.bays as the run takes"
+        )
     if scenario.vehicle.is_suspended or scenario.suspension.tread_mass > 0.0:
         raise InputError(
             "the monolithic solution knows rigid wheels under their loads only: leave "

@@ -47,6 +47,8 @@ def test_the_package_runs_the_same_passage(fmus, tmp_path):
             left.remove(signal.path(k))
     # what the result of a passage has of suspended vehicles only
     suspended = replace(SHORT, vehicle=replace(SHORT.vehicle, model="suspended"))
+    # and of endless tracks only
+    left.remove("track.window_position")
     assert left == {
         signal.path(k)
         for signal in BODY_SIGNALS

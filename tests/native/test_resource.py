@@ -13,7 +13,7 @@ from fmu_src.native.resource import ENTRY, HEAD, pack
 
 from .library import NativeError, aligned, create
 
-SECTIONS = 12  # of a track
+SECTIONS = 13  # of a track
 
 
 def refuse(library, data, match):

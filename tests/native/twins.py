@@ -22,6 +22,7 @@ TRACK_GROUPS = {
     "sleeper_displacement": "sleeper[#].displacement",
     "pad_force": "pad[#].force",
     "ballast_force": "ballast[#].force",
+    "window_position": "window_position",
 }
 VEHICLE_GROUPS = ("position", "contact_force", "displacement", "velocity", "gap")
 AGREEMENT = 1e-12  # of the largest value of an array
@@ -70,11 +71,11 @@ def filled(modes):
 
 def native_track_state(flat, *, wheels, supports, modes):
     """Numpy's state as C has it: no increments of pads; modes split and filled up."""
-    lengths = [5 * wheels, 2 * supports, 2 * supports, 2 * modes]
-    of_wheels, increment, rate, modal, load = np.split(flat, np.cumsum(lengths))
+    lengths = [5 * wheels, 2 * supports, 2 * supports, 2 * modes, 2 * modes]
+    of_wheels, increment, rate, modal, load, offset = np.split(flat, np.cumsum(lengths))
     rows = np.zeros((4, filled(modes)))
     rows[:, :modes] = modal[::2], modal[1::2], load[::2], load[1::2]
-    return np.concatenate([of_wheels, increment[:supports], rate[:supports], rows.ravel()])
+    return np.concatenate([of_wheels, increment[:supports], rate[:supports], rows.ravel(), offset])
 
 
 class TrackPair:
@@ -91,6 +92,7 @@ class TrackPair:
         ballast="state_dependent",
         supports=6,
         gauge=None,
+        endless=False,
     ):
         self.native = native(
             "track",
@@ -99,6 +101,7 @@ class TrackPair:
             initial_speed=speed,
             ballast=ballast,
             supports_per_wheel=supports,
+            endless=endless,
         )
         if gauge is not None:
             self.native.set_one("gauge[1].position", gauge)
@@ -118,6 +121,7 @@ class TrackPair:
                 supports_per_wheel=supports,
                 initial_speed=speed,
                 gauges=tuple(self.native.group("gauge[#].position")),
+                endless=endless,
             ),
             ballast=law if ballast == "state_dependent" else None,
         )
@@ -154,9 +158,9 @@ class TrackPair:
 
     def states(self):
         """Numpy's state as the native one has it, and the native one; names and values."""
-        lengths = [self.wheels] * 5 + [self.parameters.supports] * 2 + [2 * self._half] * 2
+        lengths = [self.wheels] * 5 + [self.parameters.supports] * 2 + [2 * self._half] * 2 + [1]
         names = ("position", "speed", "force", "force_rate", "displacement", "increment",
-                 "increment_rate", "modal", "load")  # fmt: skip
+                 "increment_rate", "modal", "load", "offset")  # fmt: skip
         places = np.cumsum(lengths)[:-1]
         own = self._to_native(self.numpy.state)
         expected, found = np.split(own, places), np.split(self.native.state[-len(own) :], places)

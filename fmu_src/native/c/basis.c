@@ -20,6 +20,16 @@ static int sizes_fit(const int64_t *size)
            size[HALF] >= size[MODES] && size[HALF] % RC_LANES == 0;
 }
 
+/* Whether masses are numbers, and above zero on the diagonal. */
+static int masses_fit(const double *inertia)
+{
+    for (size_t i = 0; i < RC_INERTIA_COUNT; ++i)
+        if (!isfinite(inertia[i]) || ((i % 5 == 0 || i == RC_INERTIA_COUNT - 1) &&
+                                      !(inertia[i] > 0.0)))
+            return 0;
+    return 1;
+}
+
 rc_status rc_read_basis(rc_model *model, rc_basis *basis)
 {
     size_t count;
@@ -59,7 +69,11 @@ rc_status rc_read_basis(rc_model *model, rc_basis *basis)
         (basis->moment_shape = rc_require_section(model, "moment_shape", nodes * length)) == NULL ||
         (basis->flexibility = rc_require_section(model, "flexibility", n * n)) == NULL ||
         (basis->moment_flexibility = rc_require_section(model, "moment_flexibility", nodes * n)) ==
-            NULL)
+            NULL ||
+        (basis->inertia = rc_require_section(model, "inertia", RC_INERTIA_COUNT)) == NULL)
         return RC_ERROR;
+    if (!masses_fit(basis->inertia))
+        return rc_fail(model, RC_ERROR, "the resource describes a track without mass; build the "
+                                        "FMU again");
     return RC_OK;
 }

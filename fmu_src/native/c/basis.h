@@ -10,6 +10,8 @@
 
 #include "instance.h"
 
+#define RC_INERTIA_COUNT 17
+
 typedef struct {
     size_t wheels, gauges, elements, supports;
     size_t nodes, coordinates; /* elements + 1; 2 nodes + 2 supports */
@@ -23,6 +25,7 @@ typedef struct {
     const double *moment_shape; /* (nodes, length), rows */
     const double *flexibility;  /* (coordinates, coordinates) */
     const double *moment_flexibility; /* (nodes, coordinates) */
+    const double *inertia; /* mass matrix of an element, by rows, then the mass of a sleeper */
 } rc_basis;
 
 rc_status rc_read_basis(rc_model *model, rc_basis *basis);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "rows.h"
+#include "window.h"
 
 /* Dual rows of the modal state and of its rate, and the wheels' places. */
 typedef struct {
@@ -12,11 +13,10 @@ typedef struct {
     const double *modal, *modal_rate;
 } view;
 
-static view look(rc_track *track, const rc_track_state *state)
+void rc_view_motion(const rc_basis *basis, const rc_track_state *state, double *modal,
+                    double *rate)
 {
-    const rc_basis *basis = &track->basis;
     const size_t half = basis->half;
-    double *modal = track->row, *rate = track->other_row;
     rc_multiply(rate, basis->eigenvalues, state->modal, half);
     for (size_t n = 0; n < half; ++n) {
         const double weight = basis->weight[n];
@@ -25,9 +25,14 @@ static view look(rc_track *track, const rc_track_state *state)
         rate[n] = weight * (rate[n] + state->load[n]);
         rate[half + n] = -weight * (rate[half + n] + state->load[half + n]);
     }
-    for (size_t i = 0; i < basis->wheels; ++i)
-        rc_locate(basis, state->position[i], &track->points[i]);
-    return (view){basis, state, track->points, modal, rate};
+}
+
+static view look(rc_track *track, const rc_track_state *state)
+{
+    const rc_basis *basis = &track->basis;
+    rc_view_motion(basis, state, track->row, track->other_row);
+    (void)rc_find_wheels(track, state, state->position); /* a step has led there */
+    return (view){basis, state, track->points, track->row, track->other_row};
 }
 
 /* A line of residual flexibility times the forces on the coordinates. */
@@ -118,11 +123,24 @@ static double bending_moment(const view *at, const rc_rail_point *point)
     return (1.0 - point->xi) * left + point->xi * right + inside;
 }
 
+/* Zero beyond the window, where the wheels are too far away to bend the rail. */
+static double gauge_moment(const view *at, double position)
+{
+    rc_rail_point point;
+    if (!rc_locate(at->basis, position - rc_window_position(at->basis, at->state), &point))
+        return 0.0;
+    return bending_moment(at, &point);
+}
+
 void rc_observe(rc_track *track, const rc_track_state *state, rc_observed what, double *values)
 {
     const rc_basis *basis = &track->basis;
     if (what == RC_RAIL_DISPLACEMENT) {
         memcpy(values, state->displacement, basis->wheels * sizeof(double));
+        return;
+    }
+    if (what == RC_WINDOW_POSITION) {
+        *values = rc_window_position(basis, state);
         return;
     }
     const view at = look(track, state);
@@ -137,7 +155,7 @@ void rc_observe(rc_track *track, const rc_track_state *state, rc_observed what, 
         break;
     case RC_GAUGE_MOMENT:
         for (size_t k = 0; k < basis->gauges; ++k)
-            values[k] = bending_moment(&at, &track->gauges[k]);
+            values[k] = gauge_moment(&at, track->gauge_position[k]);
         break;
     case RC_SLEEPER_DISPLACEMENT:
         for (size_t s = 0; s < basis->supports; ++s)

@@ -2,11 +2,11 @@
 #include <stdlib.h>
 
 #include "dense.h"
-#include "track.h"
+#include "window.h"
 
 size_t rc_count_state(const rc_basis *basis)
 {
-    return 5 * basis->wheels + 2 * basis->supports + 2 * basis->length;
+    return 5 * basis->wheels + 2 * basis->supports + 2 * basis->length + 1;
 }
 
 rc_track_state rc_view_state(const rc_basis *basis, double *values)
@@ -21,7 +21,8 @@ rc_track_state rc_view_state(const rc_basis *basis, double *values)
                             .increment = supports,
                             .increment_rate = supports + basis->supports,
                             .modal = rows,
-                            .load = rows + basis->length};
+                            .load = rows + basis->length,
+                            .offset = rows + 2 * basis->length};
 }
 
 int rc_is_finite(const rc_basis *basis, const rc_track_state *state)
@@ -102,7 +103,7 @@ static void take_all(store *from, rc_track *track, size_t room)
     const rc_basis *basis = &track->basis;
     const size_t wheels = basis->wheels, length = basis->length, duals = 2 + 3 * wheels;
     const size_t state = rc_count_state(basis);
-    track->gauges = take(from, basis->gauges, sizeof(rc_rail_point));
+    track->gauge_position = numbers(from, basis->gauges);
     track->points = take(from, wheels, sizeof(rc_rail_point));
     for (size_t i = 0; i < RC_REMEMBERED_STEPS; ++i)
         take_exponential(from, &track->exponentials.slots[i], length, room);
@@ -119,6 +120,8 @@ static void take_all(store *from, rc_track *track, size_t room)
     track->small = numbers(from, 9 * room);
     track->row = numbers(from, length);
     track->other_row = numbers(from, length);
+    track->inside = numbers(from, wheels);
+    track->field = numbers(from, 4 * rc_field_size(basis));
     track->before = numbers(from, state);
     track->after = numbers(from, state);
     track->change = numbers(from, state);
@@ -158,10 +161,14 @@ void rc_release_track(rc_track *track)
     track->memory = NULL;
 }
 
-void rc_choose_supports(rc_track *track, const double *positions)
+void rc_choose_supports(rc_track *track, const rc_track_state *state, const double *positions)
 {
+    const double begin = rc_window_position(&track->basis, state);
+    for (size_t i = 0; i < track->basis.wheels; ++i)
+        track->inside[i] = positions[i] - begin;
     if (track->state_dependent)
-        rc_choose_active(&track->active, &track->basis, positions, track->per_wheel, track->first);
+        rc_choose_active(&track->active, &track->basis, track->inside, track->per_wheel,
+                         track->first);
     else
         track->active.count = track->active.stride = 0;
 }
