@@ -63,15 +63,35 @@ class Observation:
 
     @cached_property
     def sleeper_displacement(self) -> FloatArray:
-        """Displacement of every sleeper [m], shape (supports,)."""
+        """Displacement of every sleeper at its rail seat [m], shape (supports,)."""
+        if self._track.parameters.sleeper == "rigid":
+            return self.ballast_deformation
+        return self._displacement(self._track.seat_rows) - self._displacement(self._track.pad_rows)
+
+    @cached_property
+    def ballast_deformation(self) -> FloatArray:
+        """Deformation of the ballast under every sleeper, the mean one [m], shape (supports,)."""
         return self._displacement(self._track.ballast_rows)
+
+    @cached_property
+    def sleeper_moment(self) -> FloatArray:
+        """Bending moment of every sleeper at its rail seat [N m], sagging positive, (supports,).
+
+        Zero for rigid sleepers, of which it is not known.
+        """
+        return self._sleeper_moments(0)
+
+    @cached_property
+    def sleeper_centre_moment(self) -> FloatArray:
+        """Bending moment of every sleeper at its centre, as `sleeper_moment`."""
+        return self._sleeper_moments(1)
 
     @cached_property
     def ballast_force(self) -> FloatArray:
         """Compression of the ballast under every sleeper [N], shape (supports,)."""
         parameters = self._track.parameters
         return (
-            parameters.ballast_stiffness * self.sleeper_displacement
+            parameters.ballast_stiffness * self.ballast_deformation
             + parameters.ballast_damping * self._rate(self._track.ballast_rows)
             + self._state.increment[: parameters.supports]
         )
@@ -124,6 +144,14 @@ class Observation:
             rates[wheel.rows] += state.force_rate[i] * wheel.shape
             rates[wheel.rows] += state.force[i] * state.speed[i] * wheel.slope
         return rates
+
+    def _sleeper_moments(self, place: int) -> FloatArray:
+        supports = self._track.parameters.supports
+        if self._track.parameters.sleeper == "rigid":
+            return np.zeros(supports)
+        rows = slice(place * supports, (place + 1) * supports)
+        modal = np.real(self._track.sleeper_moment_shape[rows] @ self._modal)
+        return modal + self._track.sleeper_moment_flexibility[rows] @ self._forces
 
     def _displacement(self, rows: slice) -> FloatArray:
         modal = np.real(self._track.shape[rows] @ self._modal)

@@ -75,6 +75,26 @@ static double rate(const view *at, size_t coordinate)
            yield_rate(at, rc_flexibility(at->basis, coordinate));
 }
 
+/* At its rail seat, which moves as the rail above it less the deformation of the pad. */
+static double sleeper_displacement(const view *at, size_t support)
+{
+    const rc_basis *basis = at->basis;
+    if (basis->sleeper_moment_shape == NULL)
+        return displacement(at, rc_ballast(basis, support));
+    return displacement(at, rc_above(basis, support)) - displacement(at, rc_pad(basis, support));
+}
+
+/* The first half of the rows is of the rail seats, the second of the centres. */
+static double sleeper_moment(const view *at, size_t row)
+{
+    const rc_basis *basis = at->basis;
+    if (basis->sleeper_moment_shape == NULL)
+        return 0.0;
+    return rc_product(basis->sleeper_moment_shape + row * basis->length, at->modal,
+                      basis->length) +
+           yield(at, basis->sleeper_moment_flexibility + row * basis->coordinates);
+}
+
 static double rail_velocity(const view *at, size_t wheel)
 {
     const rc_rail_point *point = &at->wheels[wheel];
@@ -141,17 +161,25 @@ void rc_observe(rc_track *track, const rc_track_state *state, rc_observed what, 
         break;
     case RC_SLEEPER_DISPLACEMENT:
         for (size_t s = 0; s < basis->supports; ++s)
-            values[s] = displacement(&at, rc_ballast(basis, s));
+            values[s] = sleeper_displacement(&at, s);
         break;
     case RC_PAD_FORCE:
         for (size_t s = 0; s < basis->supports; ++s)
             values[s] = basis->pad_stiffness * displacement(&at, rc_pad(basis, s)) +
                         basis->pad_damping * rate(&at, rc_pad(basis, s));
         break;
-    default: /* RC_BALLAST_FORCE */
+    case RC_BALLAST_FORCE:
         for (size_t s = 0; s < basis->supports; ++s)
             values[s] = basis->ballast_stiffness * displacement(&at, rc_ballast(basis, s)) +
                         basis->ballast_damping * rate(&at, rc_ballast(basis, s)) +
                         state->increment[s];
+        break;
+    case RC_SLEEPER_MOMENT:
+        for (size_t s = 0; s < basis->supports; ++s)
+            values[s] = sleeper_moment(&at, s);
+        break;
+    default: /* RC_SLEEPER_CENTRE_MOMENT */
+        for (size_t s = 0; s < basis->supports; ++s)
+            values[s] = sleeper_moment(&at, basis->supports + s);
     }
 }

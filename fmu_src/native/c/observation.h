@@ -15,7 +15,9 @@ typedef enum {
     RC_GAUGE_MOMENT,
     RC_SLEEPER_DISPLACEMENT,
     RC_PAD_FORCE,
-    RC_BALLAST_FORCE
+    RC_BALLAST_FORCE,
+    RC_SLEEPER_MOMENT,
+    RC_SLEEPER_CENTRE_MOMENT
 } rc_observed;
 
 void rc_observe(rc_track *track, const rc_track_state *state, rc_observed what, double *values);
