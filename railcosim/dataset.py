@@ -9,7 +9,7 @@ import xarray as xr
 
 from .run_record import ATTEMPT_COLUMNS
 from .scenario_file import to_toml
-from .signals import COMPRESSION, FORWARDS, SIGNALS, labels
+from .signals import COMPRESSION, FORWARDS, labels, signals_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -46,7 +46,8 @@ def assemble(
     times : ndarray, shape (n,)
         Accepted times [s].
     series : mapping of str to ndarray
-        Every one of `SIGNALS` by name, of shape (n, wheels), (n, sleepers) or (n, gauges).
+        Every one of `signals_of` the scenario by name, of shape (n, wheels), (n, sleepers) or
+        (n, gauges).
     attempts : mapping of str to ndarray
         The columns `ATTEMPT_COLUMNS` of the step log, each of shape (m,); causes are texts.
     attributes : mapping
@@ -64,7 +65,7 @@ def assemble(
             series[signal.name].astype(bool if signal.name == "in_contact" else float),
             signal.attributes,
         )
-        for signal in SIGNALS
+        for signal in signals_of(scenario)
     }
     flat = series["wheel_position"][:, scenario.flat.wheel - 1]
     return xr.Dataset(

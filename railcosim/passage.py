@@ -26,7 +26,7 @@ from .evidence import keeping_evidence
 from .input_tables import check_profiles
 from .motion import speed_law, travel_time
 from .run_record import attempts, doubts, programs, statistics
-from .signals import SIGNALS
+from .signals import signals_of
 from .watched_control import WatchedControl
 
 if TYPE_CHECKING:
@@ -114,7 +114,11 @@ def run_passage(
         with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
             sources = fmu_sources(scenario, paths, law, contact=contact, timeout=timeout)
             system = join(sources, scenario.vehicle.wheels, contact)
-            signals = [path for signal in SIGNALS for path in _paths(scenario, signal, contact)]
+            signals = [
+                path
+                for signal in signals_of(scenario)
+                for path in _paths(scenario, signal, contact)
+            ]
             recorder = Recorder(signals + _origins(scenario, contact))
             case = _case(scenario, law, system, sources, recorder, contact=contact)
             master = _master(system, case, recorder, report=report)
@@ -186,7 +190,7 @@ def _series(
         signal.name: np.stack(
             [recorder[path] for path in _paths(scenario, signal, contact)], axis=1
         )
-        for signal in SIGNALS
+        for signal in signals_of(scenario)
     }
     for wheel, path in enumerate(_origins(scenario, contact)):
         series["wheel_displacement"][:, wheel] += recorder[path]

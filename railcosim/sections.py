@@ -78,7 +78,7 @@ class Track:
     sleeper_shear_stiffness: Annotated[float, Number(unit="N", above=0.0)] = 565e6
     sleeper_mass_per_length: Annotated[float, Number(unit="kg/m", above=0.0)] = 100.0
     sleeper_rotary_inertia_per_length: Annotated[float, Number(unit="kg m", at_least=0.0)] = 0.33
-    sleeper_elements: Annotated[int, Number(unit="elements", at_least=2, at_most=100)] = 5
+    sleeper_elements: Annotated[int, Number(unit="elements", at_least=2, at_most=100)] = 8
     ballast: Annotated[str, Choice(("state_dependent", "linear"))] = "state_dependent"
     ballast_alpha: Annotated[float, Number(unit="N/m2")] = 0.37e12
     ballast_beta: Annotated[float, Number(unit="N/m3")] = -2.47e15

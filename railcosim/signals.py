@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+if TYPE_CHECKING:
+    from .scenario import Scenario
 
 Dimension: TypeAlias = Literal["wheel", "sleeper", "gauge"]
 
@@ -172,4 +175,29 @@ SIGNALS = (
         sign=SAGGING,
     ),
 )
-"""Every time series that a result holds."""
+"""Every time series that any result holds."""
+
+SLEEPER_SIGNALS = (
+    Signal(
+        name="sleeper_bending_moment",
+        source="track.sleeper[k].bending_moment",
+        dim="sleeper",
+        units="N m",
+        long_name="bending moment of the sleeper at its rail seat",
+        sign="positive sagging: tension in the sleeper's foot",
+    ),
+    Signal(
+        name="sleeper_centre_bending_moment",
+        source="track.sleeper[k].centre_bending_moment",
+        dim="sleeper",
+        units="N m",
+        long_name="bending moment of the sleeper at its centre",
+        sign="positive sagging: tension in the sleeper's foot",
+    ),
+)
+"""What a result holds besides where sleepers are beams."""
+
+
+def signals_of(scenario: Scenario) -> tuple[Signal, ...]:
+    """Return the time series that the result of a passage holds."""
+    return SIGNALS if scenario.track.sleeper == "rigid" else SIGNALS + SLEEPER_SIGNALS

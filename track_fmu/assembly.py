@@ -62,7 +62,8 @@ class TrackMatrices:
     rail_stiffness, rail_mass : (N, N) sparse array
         The rail alone [N/m ...], [kg ...].
     pad_incidence, ballast_incidence : (N, supports) sparse array
-        Column i gives the deformation of pad i or the mean one of ballast i [-].
+        Column i gives the deformation of pad i or ballast i [-]; under a sleeper that bends, the
+        weighted mean that drives state-dependent ballast.
     dampers : (N, d) sparse array
         Directions that span the damping forces of the low modes.
     mass, damping, stiffness : (N, N) sparse array
@@ -169,14 +170,14 @@ def _assemble_rail(element: FloatArray, numbering: Numbering) -> sp.csc_array:
 
 
 def _incidences(numbering: Numbering, half: HalfSleeper) -> tuple[sp.csc_array, sp.csc_array]:
-    """Incidence of pad deformation (rail minus rail seat) and mean ballast deformation."""
+    """Incidence of pad deformation (rail minus rail seat) and ballast deformation."""
     supports = np.arange(len(numbering.sleeper))
     ones = np.ones(len(supports))
     shape = (numbering.size, len(supports))
     rail = numbering.rail[numbering.support_node, 0]
     on_rail = sp.coo_array((ones, (rail, supports)), shape=shape)
     on_seat = sp.coo_array((ones, (numbering.sleeper, supports)), shape=shape)
-    return sp.csc_array(on_rail - on_seat), _under_sleepers(half.mean[:, None], numbering)
+    return sp.csc_array(on_rail - on_seat), _under_sleepers(half.spread[:, None], numbering)
 
 
 def _under_sleepers(columns: FloatArray, numbering: Numbering) -> sp.csc_array:

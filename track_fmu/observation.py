@@ -70,7 +70,10 @@ class Observation:
 
     @cached_property
     def ballast_deformation(self) -> FloatArray:
-        """Deformation of the ballast under every sleeper, the mean one [m], shape (supports,)."""
+        """Deformation of the ballast under every sleeper [m], shape (supports,).
+
+        Under a sleeper that bends, the weighted mean that drives state-dependent ballast.
+        """
         return self._displacement(self._track.ballast_rows)
 
     @cached_property
@@ -79,20 +82,21 @@ class Observation:
 
         Zero for rigid sleepers, of which it is not known.
         """
-        return self._sleeper_moments(0)
+        return self._moment_of_sleepers(0)
 
     @cached_property
     def sleeper_centre_moment(self) -> FloatArray:
         """Bending moment of every sleeper at its centre, as `sleeper_moment`."""
-        return self._sleeper_moments(1)
+        return self._moment_of_sleepers(1)
 
     @cached_property
     def ballast_force(self) -> FloatArray:
         """Compression of the ballast under every sleeper [N], shape (supports,)."""
         parameters = self._track.parameters
+        deformation, rate = self._mean_deformation
         return (
-            parameters.ballast_stiffness * self.ballast_deformation
-            + parameters.ballast_damping * self._rate(self._track.ballast_rows)
+            parameters.ballast_stiffness * deformation
+            + parameters.ballast_damping * rate
             + self._state.increment[: parameters.supports]
         )
 
@@ -145,13 +149,26 @@ class Observation:
             rates[wheel.rows] += state.force[i] * state.speed[i] * wheel.slope
         return rates
 
-    def _sleeper_moments(self, place: int) -> FloatArray:
+    @cached_property
+    def _mean_deformation(self) -> tuple[FloatArray, FloatArray]:
+        """Mean deformation of the linear ballast and its rate, shape (supports,) each."""
+        track = self._track
+        if track.parameters.sleeper == "rigid":
+            return self.ballast_deformation, self._rate(track.ballast_rows)
+        rows = slice(2 * track.parameters.supports, None)
+        shape, flexibility = track.sleeper_shape[rows], track.sleeper_flexibility[rows]
+        return (
+            np.real(shape @ self._modal) + flexibility @ self._forces,
+            np.real(shape @ self._modal_rate) + flexibility @ self._force_rates,
+        )
+
+    def _moment_of_sleepers(self, place: int) -> FloatArray:
         supports = self._track.parameters.supports
         if self._track.parameters.sleeper == "rigid":
             return np.zeros(supports)
         rows = slice(place * supports, (place + 1) * supports)
-        modal = np.real(self._track.sleeper_moment_shape[rows] @ self._modal)
-        return modal + self._track.sleeper_moment_flexibility[rows] @ self._forces
+        modal = np.real(self._track.sleeper_shape[rows] @ self._modal)
+        return modal + self._track.sleeper_flexibility[rows] @ self._forces
 
     def _displacement(self, rows: slice) -> FloatArray:
         modal = np.real(self._track.shape[rows] @ self._modal)

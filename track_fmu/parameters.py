@@ -75,7 +75,7 @@ class TrackParameters:
     sleeper_shear_stiffness: float = 565e6
     sleeper_mass_per_length: float = 100.0
     sleeper_rotary_inertia_per_length: float = 0.33
-    sleeper_elements: int = 5
+    sleeper_elements: int = 8
 
     def __post_init__(self) -> None:
         if self.sleeper not in SLEEPERS:

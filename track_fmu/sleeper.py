@@ -4,6 +4,11 @@ The track and its loads are symmetric about the centreline between the rails, so
 will do: its centre does not rotate and carries no shear force, its end is free. A beam lies on
 ballast that is spread evenly along it, and the matrices of the bed are those of a total stiffness
 of one, so that a beam that does not bend stands on the spring and damper of Table 1.
+
+What state-dependent ballast adds is one force per sleeper, as under a rigid one, but spread over
+the length like the square of the deflection under a load on the rail seat (the leading term of
+Eq. 27 is a square), and driven by the deflection averaged with the same weight. A sleeper that does
+not bend has the law of the rigid one, to the last digit of the weights.
 """
 
 from __future__ import annotations
@@ -27,6 +32,10 @@ if TYPE_CHECKING:
     from .parameters import TrackParameters
 
 
+LOADED_BED = 4.0
+"""Stiffness of a loaded bed over that of the unloaded one: Eq. (26) under 45 kN on a rail seat."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HalfSleeper:
     """Half a sleeper of ``s`` degrees of freedom ``u``.
@@ -36,7 +45,7 @@ class HalfSleeper:
 
     Bending moments (sagging positive) come from the end couple of an element,
     ``moment_stiffness u + moment_mass u'' + moment_bed (k u + c u') - moment_spread f``, with the
-    bed's total stiffness ``k`` and damping ``c`` and an evenly spread force ``f``.
+    bed's total stiffness ``k`` and damping ``c`` and the spread force ``f``.
 
     Attributes
     ----------
@@ -45,7 +54,10 @@ class HalfSleeper:
     bed : (s, s) float array
         Of an even bed with a total stiffness of one [-].
     mean : (s,) float array
-        Gives the mean deflection [-]; also how an evenly spread unit force loads ``u``.
+        Gives the mean deflection [-], which times the bed's stiffness is the force on it.
+    spread : (s,) float array
+        Gives the weighted mean deflection that drives the state-dependent ballast [-]; also how its
+        force, one in all, loads ``u``.
     seat : int
         Place of the rail seat's deflection in ``u``.
     moment_stiffness, moment_mass, moment_bed : (m, s) float array
@@ -58,6 +70,7 @@ class HalfSleeper:
     stiffness: FloatArray
     bed: FloatArray
     mean: FloatArray
+    spread: FloatArray
     seat: int
     moment_stiffness: FloatArray
     moment_mass: FloatArray
@@ -90,6 +103,7 @@ def half_sleeper(parameters: TrackParameters) -> HalfSleeper:
             stiffness=0.0 * one,
             bed=one,
             mean=np.ones(1),
+            spread=np.ones(1),
             seat=0,
             moment_stiffness=none,
             moment_mass=none,
@@ -99,7 +113,8 @@ def half_sleeper(parameters: TrackParameters) -> HalfSleeper:
     nodes, seat = sleeper_nodes(
         parameters.sleeper_half_length, parameters.sleeper_rail_seat, parameters.sleeper_elements
     )
-    return _beam(parameters.sleeper_section, nodes, seat)
+    bed = LOADED_BED * parameters.ballast_stiffness
+    return _beam(parameters.sleeper_section, nodes, seat, bed)
 
 
 def sleeper_nodes(half_length: float, rail_seat: float, elements: int) -> tuple[FloatArray, int]:
@@ -117,48 +132,81 @@ def sleeper_nodes(half_length: float, rail_seat: float, elements: int) -> tuple[
     return np.concatenate((inside, outside[1:])), inner
 
 
-def _beam(section: BeamSection, nodes: FloatArray, seat: int) -> HalfSleeper:
+def _beam(section: BeamSection, nodes: FloatArray, seat: int, loaded_bed: float) -> HalfSleeper:
     """Assemble a beam; the rotation of its first node is held."""
-    size, half_length = 2 * len(nodes), float(nodes[-1])
-    mass, stiffness, bed = (np.zeros((size, size)) for _ in range(3))
-    mean = np.zeros(size)
-    rows, spread = {}, {}
-    for element, length in enumerate(np.diff(nodes).tolist()):
-        part = slice(2 * element, 2 * element + 4)
-        own = _element(section, length, half_length)
-        for whole, matrix in zip((stiffness, mass, bed), own[:3], strict=True):
-            whole[part, part] += matrix
-        mean[part] += own[3]
-        if element in (seat, 0):
-            # theta = w' has its moment -EI theta': the couple at the inner end is the sagging one
-            rows[element] = np.zeros((3, size))
-            rows[element][:, part] = [matrix[1] for matrix in own[:3]]
-            spread[element] = own[3][1]
+    size = 2 * len(nodes)
     free = np.delete(np.arange(size), 1)
-    moments = np.array([rows[seat], rows[0]])[:, :, free]
+    elements = [_element(section, length, nodes[-1]) for length in np.diff(nodes).tolist()]
+    stiffness, mass, bed = (
+        _assemble([getattr(element, name) for element in elements])[np.ix_(free, free)]
+        for name in ("stiffness", "mass", "bed")
+    )
+    load = np.zeros(len(free))
+    load[2 * seat - 1] = 1.0
+    deflected = np.zeros(size)
+    deflected[free] = la.solve(stiffness + loaded_bed * bed, load, assume_a="pos")
+    ends = [slice(2 * n, 2 * n + 4) for n in range(len(elements))]
+    squares = [e.squared(deflected[end]) for e, end in zip(elements, ends, strict=True)]
+    mean, spread = np.zeros(size), np.zeros(size)
+    for element, end, square in zip(elements, ends, squares, strict=True):
+        mean[end] += element.mean
+        spread[end] += square
+    # the deflections of an element sum to one: so do the weights of all of them
+    total = sum(float(square[0] + square[2]) for square in squares)
+    # theta = w' has its moment -EI theta': the couple at the inner end is the sagging moment
+    chosen = [(elements[n], ends[n], squares[n]) for n in (seat, 0)]
+    rows = np.zeros((3, 2, size))
+    for place, (element, end, _) in enumerate(chosen):
+        rows[:, place, end] = element.stiffness[1], element.mass[1], element.bed[1]
     return HalfSleeper(
-        mass=mass[np.ix_(free, free)],
-        stiffness=stiffness[np.ix_(free, free)],
-        bed=bed[np.ix_(free, free)],
+        mass=mass,
+        stiffness=stiffness,
+        bed=bed,
         mean=mean[free],
+        spread=spread[free] / total,
         seat=2 * seat - 1,
-        moment_stiffness=moments[:, 0],
-        moment_mass=moments[:, 1],
-        moment_bed=moments[:, 2],
-        moment_spread=np.array([spread[seat], spread[0]]),
+        moment_stiffness=rows[0][:, free],
+        moment_mass=rows[1][:, free],
+        moment_bed=rows[2][:, free],
+        moment_spread=np.array([square[1] / total for _, _, square in chosen]),
     )
 
 
-def _element(
-    section: BeamSection, length: float, half_length: float
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Stiffness, mass and bed of an element, and its share of the mean deflection."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Element:
+    """Matrices of an element, shape (4, 4), its share of the mean and what that is summed from."""
+
+    stiffness: FloatArray
+    mass: FloatArray
+    bed: FloatArray
+    mean: FloatArray
+    shapes: FloatArray
+    shares: FloatArray
+
+    def squared(self, ends: FloatArray) -> FloatArray:
+        """Share of a mean weighted by the square of a deflection, shape (4,)."""
+        weights: FloatArray = self.shares * (self.shapes @ ends) ** 2
+        return weights @ self.shapes
+
+
+def _element(section: BeamSection, length: float, half_length: float) -> _Element:
     phi = shear_parameter(section, length)
-    points, weights = np.polynomial.legendre.leggauss(4)
-    bed, mean = np.zeros((4, 4)), np.zeros(4)
-    for point, weight in zip(points, weights, strict=True):
-        shape = deflection_shape(0.5 * (1.0 + float(point)), length, phi)
-        share = 0.5 * float(weight) * length / half_length
-        bed += share * np.outer(shape, shape)
-        mean += share * shape
-    return stiffness_matrix(section, length), mass_matrix(section, length), bed, mean
+    points, weights = np.polynomial.legendre.leggauss(5)  # exact to the ninth degree
+    shapes = np.array([deflection_shape(0.5 * (1.0 + float(p)), length, phi) for p in points])
+    shares = 0.5 * length / half_length * weights
+    return _Element(
+        stiffness=stiffness_matrix(section, length),
+        mass=mass_matrix(section, length),
+        bed=shapes.T @ (shares[:, None] * shapes),
+        mean=shares @ shapes,
+        shapes=shapes,
+        shares=shares,
+    )
+
+
+def _assemble(matrices: list[FloatArray]) -> FloatArray:
+    """Sum of element matrices along a beam."""
+    whole = np.zeros((2 * len(matrices) + 2, 2 * len(matrices) + 2))
+    for n, matrix in enumerate(matrices):
+        whole[2 * n : 2 * n + 4, 2 * n : 2 * n + 4] += matrix
+    return whole

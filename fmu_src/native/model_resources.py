@@ -113,10 +113,10 @@ def _modes(reduced: ReducedTrack, half: int) -> dict[str, Section]:
     weight = np.zeros(half)
     weight[: len(reduced.weight)] = reduced.weight
     sleepers: dict[str, Section] = {
-        "sleeper_moment_shape": _rows(reduced.sleeper_moment_shape, half),
-        "sleeper_moment_flex": reduced.sleeper_moment_flexibility,
+        "sleeper_shape": _rows(reduced.sleeper_shape, half),
+        "sleeper_flexibility": reduced.sleeper_flexibility,
     }
-    return (sleepers if len(reduced.sleeper_moment_shape) else {}) | {
+    return (sleepers if len(reduced.sleeper_shape) else {}) | {
         "eigenvalues": _rows(reduced.eigenvalues, half),
         "inverses": _rows(1.0 / reduced.eigenvalues, half),
         "weight": weight,

@@ -20,18 +20,18 @@ static int sizes_fit(const int64_t *size)
            size[HALF] >= size[MODES] && size[HALF] % RC_LANES == 0;
 }
 
-/* Bending moments of the sleepers, which the resource has if they are beams. */
+/* What is observed of the sleepers, which the resource has if they are beams. */
 static rc_status read_sleepers(rc_model *model, rc_basis *basis)
 {
-    const size_t moments = 2 * basis->supports;
+    const size_t rows = 3 * basis->supports;
     size_t count;
-    basis->sleeper_moment_shape = basis->sleeper_moment_flexibility = NULL;
-    if (rc_find_section(&model->resource, "sleeper_moment_shape", RC_FLOAT64, &count) == NULL)
+    basis->sleeper_shape = basis->sleeper_flexibility = NULL;
+    if (rc_find_section(&model->resource, "sleeper_shape", RC_FLOAT64, &count) == NULL)
         return RC_OK;
-    if ((basis->sleeper_moment_shape =
-             rc_require_section(model, "sleeper_moment_shape", moments * basis->length)) == NULL ||
-        (basis->sleeper_moment_flexibility = rc_require_section(
-             model, "sleeper_moment_flex", moments * basis->coordinates)) == NULL)
+    if ((basis->sleeper_shape =
+             rc_require_section(model, "sleeper_shape", rows * basis->length)) == NULL ||
+        (basis->sleeper_flexibility = rc_require_section(model, "sleeper_flexibility",
+                                                         rows * basis->coordinates)) == NULL)
         return RC_ERROR;
     return RC_OK;
 }

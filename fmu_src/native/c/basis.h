@@ -1,7 +1,7 @@
 /* The track in its modes, as the resource holds it; twin of track_fmu/reduction.py.
  *
  * Coordinates: deflection and rotation of every rail node, then the deformation of the ballast
- * under every sleeper (the mean one if it bends), then that of every pad.
+ * under every sleeper (a weighted mean if it bends), then that of every pad.
  */
 #ifndef RC_BASIS_H
 #define RC_BASIS_H
@@ -23,9 +23,10 @@ typedef struct {
     const double *moment_shape; /* (nodes, length), rows */
     const double *flexibility;  /* (coordinates, coordinates) */
     const double *moment_flexibility; /* (nodes, coordinates) */
-    /* of all rail seats, then of all centres of the sleepers; NULL if they are rigid */
-    const double *sleeper_moment_shape;       /* (2 supports, length), rows */
-    const double *sleeper_moment_flexibility; /* (2 supports, coordinates) */
+    /* bending moments of the sleepers at all rail seats, then at all centres, then their mean
+     * deflections; NULL if they are rigid */
+    const double *sleeper_shape;       /* (3 supports, length), rows */
+    const double *sleeper_flexibility; /* (3 supports, coordinates) */
 } rc_basis;
 
 rc_status rc_read_basis(rc_model *model, rc_basis *basis);
