@@ -10,8 +10,11 @@ from build_fmus import ensure_fmus
 from railcosim.builds import build_for
 from railcosim.cosim import run_system
 from railcosim.cosim_options import CosimOptions
+from railcosim.passage import run_passage
 from railcosim.passage_package import ensure_package
 from railcosim.scenario import Scenario
+from railcosim.scenario_file import read_scenario
+from railcosim.summary import summarise
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 TOLERANCES = EXAMPLES / "baselines" / "tolerances.toml"
@@ -75,3 +78,14 @@ def test_passage_as_a_system(tmp_path, baseline):
         time=np.linspace(0.0, SHORT, 1001)
     )
     baseline.check(even.drop_attrs(deep=False), TOLERANCES, name="passage_as_a_system")
+
+
+def test_sleepers(tmp_path):
+    """Within a fifth of a percent of the whole track without modes (`railcosim.monolithic`)."""
+    scenario = read_scenario(EXAMPLES / "sleepers.toml")
+    result = run_passage(scenario, fmus="native", directory=tmp_path)
+    summary = summarise(result)
+    assert summary.peak_contact_force == pytest.approx(229.38e3, rel=2e-3)
+    assert summary.max_sleeper_displacement == pytest.approx(0.5401e-3, rel=2e-3)
+    assert float(result["sleeper_bending_moment"].max()) == pytest.approx(12.866e3, rel=2e-3)
+    assert float(result["sleeper_centre_bending_moment"].min()) == pytest.approx(-5.184e3, rel=2e-3)

@@ -52,7 +52,7 @@ class TrackMatrices:
     """Linear track ``M x'' + C x' + K x = f`` and the parts it is made of.
 
     ``K = rail_stiffness + D_p k_p D_p^T + k_b B + K_s`` with the incidence matrix of pads (rail
-    minus rail seat), the beds' matrix and the sleepers' own stiffness; ``C`` likewise;
+    minus rail seat), the matrix ``B`` of the beds and the sleepers' own stiffness; ``C`` likewise;
     ``M = rail_mass + M_s``. Rigid sleepers have ``B = D_b D_b^T`` and no stiffness of their own.
 
     Attributes
@@ -64,6 +64,8 @@ class TrackMatrices:
     pad_incidence, ballast_incidence : (N, supports) sparse array
         Column i gives the deformation of pad i or ballast i [-]; under a sleeper that bends, the
         weighted mean that drives state-dependent ballast.
+    beds : (N, N) sparse array
+        Stiffness of the beds where each has one in all [-].
     dampers : (N, d) sparse array
         Directions that span the damping forces of the low modes.
     mass, damping, stiffness : (N, N) sparse array
@@ -75,6 +77,7 @@ class TrackMatrices:
     rail_mass: sp.csc_array
     pad_incidence: sp.csc_array
     ballast_incidence: sp.csc_array
+    beds: sp.csc_array
     dampers: sp.csc_array
     mass: sp.csc_array
     damping: sp.csc_array
@@ -124,6 +127,7 @@ def assemble(parameters: TrackParameters) -> TrackMatrices:
         rail_mass=rail_mass,
         pad_incidence=pad,
         ballast_incidence=ballast,
+        beds=beds,
         dampers=sp.csc_array(sp.hstack([pad, bed_forces])),
         mass=sp.csc_array(rail_mass + _on_sleepers(half.mass, numbering)),
         damping=sp.csc_array(parameters.pad_damping * pads + parameters.ballast_damping * beds),
