@@ -21,6 +21,8 @@ def read_passage(path: Path) -> xr.Dataset:
     InputError
         For a file that cannot be read or holds something else.
     """
+    if not path.is_file():
+        raise InputError(f"there is no file {path}: check the path")
     try:
         with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as stored:
             passage = stored.load()

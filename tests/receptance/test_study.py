@@ -210,3 +210,9 @@ def test_a_bending_sleeper_at_its_rail_seat_by_modes_and_by_matrices():
     assert modal[0] == pytest.approx(direct[0], rel=1e-9)
     # at 350 pairs, which reach 2.8 kHz
     assert np.abs(modal - direct).max() < 1e-3 * np.abs(direct).min()
+
+
+def test_peaks_do_not_depend_on_where_the_range_ends(table1, curves):
+    narrow = compute_receptance(table1, frequency_range(50.0, 270.0, 50), ("direct",))
+    found = narrow["peak_frequency"].to_numpy()
+    assert found == pytest.approx(curves["peak_frequency"].to_numpy()[:2], abs=0.02)

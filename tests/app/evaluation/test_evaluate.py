@@ -163,7 +163,7 @@ def test_a_file_that_is_no_result_is_refused(call, tmp_path):
     text.write_text("no data")
     wrong = call(result=text)
     assert wrong.exit_code == 2
-    assert "cannot be read as a NetCDF-4 file" in one_sentence(wrong)
+    assert "cannot be read as a result" in one_sentence(wrong)
 
 
 def test_a_doubtful_run_is_said_to_be_one(call, make_passage, tmp_path):
