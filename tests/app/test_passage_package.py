@@ -17,7 +17,7 @@ from railcosim.passage import run_passage
 from railcosim.passage_package import ensure_package
 from railcosim.scenario import Scenario
 from railcosim.sections import Flat, Run
-from railcosim.signals import SIGNALS
+from railcosim.signals import SIGNALS, SLEEPER_SIGNALS
 
 SHORT = Scenario(flat=Flat(depth=2e-3), run=Run(approach=0.1, departure=0.1))
 """A deep flat strikes: contact is lost and found again within 18 ms."""
@@ -43,7 +43,11 @@ def test_the_package_runs_the_same_passage(fmus, tmp_path):
             scale = 1e-9 * np.abs(expected).max()
             assert system[signal.path(k)].to_numpy() == pytest.approx(expected, rel=0, abs=scale)
             left.remove(signal.path(k))
-    assert left == set()
+    of_rigid_sleepers = {
+        signal.path(k) for signal in SLEEPER_SIGNALS for k in passage["sleeper"].to_numpy()
+    }
+    assert left == of_rigid_sleepers
+    assert all((system[name] == 0.0).all() for name in left)
 
 
 def test_the_package_with_contact_on_the_track_runs_the_same_passage(tmp_path):
