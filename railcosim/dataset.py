@@ -52,7 +52,8 @@ def assemble(
     times : ndarray, shape (n,)
         Accepted times [s].
     series : mapping of str to ndarray
-        Every one of `signals_of` the scenario by name, of shape (n, wheels), (n, sleepers) etc.
+        Every one of `signals_of` the scenario by name, of shape (n, wheels), (n, sleepers) or
+        (n, gauges).
     attempts : mapping of str to ndarray
         The columns `ATTEMPT_COLUMNS` of the step log, each of shape (m,); causes are texts.
     attributes : mapping

@@ -37,9 +37,20 @@ class Track:
     pad_stiffness, pad_damping : float
         Rail pad [N/m], [N s/m].
     sleeper_mass, sleeper_spacing : float
-        Half sleeper [kg] and spacing [m].
+        Half sleeper that is rigid [kg] and spacing [m].
     ballast_stiffness, ballast_damping : float
         Unloaded ballast and subgrade per rail seat [N/m], [N s/m].
+    sleeper : str
+        ``rigid``, or ``beam``: a Rayleigh-Timoshenko beam on ballast spread evenly along it, with
+        the properties that follow.
+    sleeper_half_length, sleeper_rail_seat : float
+        Distance of a sleeper's end and of its rail seat from its centre [m].
+    sleeper_bending_stiffness, sleeper_shear_stiffness : float
+        Sleeper EI [N m2] and kGA [N].
+    sleeper_mass_per_length, sleeper_rotary_inertia_per_length : float
+        Sleeper m [kg/m] and m r2 [kg m].
+    sleeper_elements : int
+        Beam elements in half a sleeper.
     ballast : str
         ``state_dependent``: Eq. (27) and (30) on top of the linear ballast; ``linear``: without.
     ballast_alpha, ballast_beta, ballast_delta : float
@@ -66,6 +77,14 @@ class Track:
     sleeper_spacing: Annotated[float, Number(unit="m", above=0.0)] = 0.65
     ballast_stiffness: Annotated[float, Number(unit="N/m", above=0.0)] = 30e6
     ballast_damping: Annotated[float, Number(unit="N s/m", at_least=0.0)] = 31e3
+    sleeper: Annotated[str, Choice(("rigid", "beam"))] = "rigid"
+    sleeper_half_length: Annotated[float, Number(unit="m", above=0.0)] = 1.25
+    sleeper_rail_seat: Annotated[float, Number(unit="m", above=0.0)] = 0.75
+    sleeper_bending_stiffness: Annotated[float, Number(unit="N m2", above=0.0)] = 5.5e6
+    sleeper_shear_stiffness: Annotated[float, Number(unit="N", above=0.0)] = 565e6
+    sleeper_mass_per_length: Annotated[float, Number(unit="kg/m", above=0.0)] = 100.0
+    sleeper_rotary_inertia_per_length: Annotated[float, Number(unit="kg m", at_least=0.0)] = 0.33
+    sleeper_elements: Annotated[int, Number(unit="elements", at_least=2, at_most=100)] = 8
     ballast: Annotated[str, Choice(("state_dependent", "linear"))] = "state_dependent"
     ballast_alpha: Annotated[float, Number(unit="N/m2")] = 0.37e12
     ballast_beta: Annotated[float, Number(unit="N/m3")] = -2.47e15
@@ -77,6 +96,17 @@ class Track:
 
     def __post_init__(self) -> None:
         check_fields(self, "track")
+        if self.sleeper_rail_seat >= self.sleeper_half_length:
+            raise InputError(
+                f"track.sleeper_rail_seat is {self.sleeper_rail_seat:g} m but must be less than "
+                f"track.sleeper_half_length, {self.sleeper_half_length:g} m, where the sleeper "
+                "ends: move the rail seat inwards"
+            )
+        if self.endless and self.sleeper != "rigid":
+            raise InputError(
+                "track.endless is true but track.sleeper is 'beam': an endless track has rigid "
+                "sleepers"
+            )
         if self.degrees_of_freedom > MOST_DEGREES_OF_FREEDOM:
             raise InputError(
                 f"track.bays = {self.bays} with track.elements_per_bay = {self.elements_per_bay} "
@@ -97,13 +127,18 @@ class Track:
 
     @property
     def retained_pairs(self) -> int:
-        """Retained pairs of complex modes; without a number three per bay, up to 2.7 kHz."""
-        return self.mode_pairs or min(3 * self.bays, self.degrees_of_freedom)
+        """Retained pairs of complex modes, up to 2.7 kHz without a number: three per bay.
+
+        Seven per bay where sleepers bend, each of which has four modes of its own down there.
+        """
+        per_bay = 3 if self.sleeper == "rigid" else 7
+        return self.mode_pairs or min(per_bay * self.bays, self.degrees_of_freedom)
 
     @property
     def degrees_of_freedom(self) -> int:
-        """Two per inner rail node and one per sleeper."""
-        return 2 * (self.bays * self.elements_per_bay - 1) + self.bays - 1
+        """Two per inner rail node; one per rigid sleeper, more per sleeper that bends."""
+        per_sleeper = 1 if self.sleeper == "rigid" else 2 * self.sleeper_elements + 1
+        return 2 * (self.bays * self.elements_per_bay - 1) + per_sleeper * (self.bays - 1)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -179,7 +179,7 @@ SIGNALS = (
         sign=SAGGING,
     ),
 )
-"""Every time series that a result holds."""
+"""Every time series that any result holds."""
 
 REST = "positive downwards, from static equilibrium"
 
@@ -220,6 +220,29 @@ BODY_SIGNALS = (
 """The time series that the result of a suspended vehicle holds besides."""
 
 
+SLEEPER_SIGNALS = (
+    Signal(
+        name="sleeper_bending_moment",
+        source="track.sleeper[k].bending_moment",
+        dim="sleeper",
+        units="N m",
+        long_name="bending moment of the sleeper at its rail seat",
+        sign="positive sagging: tension in the sleeper's foot",
+    ),
+    Signal(
+        name="sleeper_centre_bending_moment",
+        source="track.sleeper[k].centre_bending_moment",
+        dim="sleeper",
+        units="N m",
+        long_name="bending moment of the sleeper at its centre",
+        sign="positive sagging: tension in the sleeper's foot",
+    ),
+)
+"""What a result holds besides where sleepers are beams."""
+
+
 def signals_of(scenario: Scenario) -> tuple[Signal, ...]:
     """Return the time series that the result of a scenario holds."""
-    return SIGNALS + BODY_SIGNALS if scenario.vehicle.is_suspended else SIGNALS
+    bodies = BODY_SIGNALS if scenario.vehicle.is_suspended else ()
+    sleepers = () if scenario.track.sleeper == "rigid" else SLEEPER_SIGNALS
+    return (*SIGNALS, *bodies, *sleepers)

@@ -14,6 +14,7 @@ from railcosim.passage import run_passage
 from railcosim.passage_package import ensure_package
 from railcosim.scenario import Scenario
 from railcosim.scenario_file import read_scenario
+from railcosim.summary import summarise
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 TOLERANCES = EXAMPLES / "baselines" / "tolerances.toml"
@@ -98,3 +99,14 @@ def test_coach():
     assert float(passage["bogie_acceleration"].max()) == pytest.approx(0.380, rel=5e-3)
     # the strike of 18 kN for some milliseconds, on 44 t: the car body does not feel it
     assert float(abs(passage["car_acceleration"]).max()) < 0.005
+
+
+def test_sleepers(tmp_path):
+    """Within a fifth of a percent of the whole track without modes (`railcosim.monolithic`)."""
+    scenario = read_scenario(EXAMPLES / "sleepers.toml")
+    result = run_passage(scenario, fmus="native", directory=tmp_path)
+    summary = summarise(result)
+    assert summary.peak_contact_force == pytest.approx(229.38e3, rel=2e-3)
+    assert summary.max_sleeper_displacement == pytest.approx(0.5401e-3, rel=2e-3)
+    assert float(result["sleeper_bending_moment"].max()) == pytest.approx(12.866e3, rel=2e-3)
+    assert float(result["sleeper_centre_bending_moment"].min()) == pytest.approx(-5.184e3, rel=2e-3)

@@ -65,16 +65,40 @@ class Observation:
 
     @cached_property
     def sleeper_displacement(self) -> FloatArray:
-        """Displacement of every sleeper [m], shape (supports,)."""
+        """Displacement of every sleeper at its rail seat [m], shape (supports,)."""
+        if self._track.parameters.sleeper == "rigid":
+            return self.ballast_deformation
+        return self._displacement(self._track.seat_rows) - self._displacement(self._track.pad_rows)
+
+    @cached_property
+    def ballast_deformation(self) -> FloatArray:
+        """Deformation of the ballast under every sleeper [m], shape (supports,).
+
+        Under a sleeper that bends, the weighted mean that drives state-dependent ballast.
+        """
         return self._displacement(self._track.ballast_rows)
+
+    @cached_property
+    def sleeper_moment(self) -> FloatArray:
+        """Bending moment of every sleeper at its rail seat [N m], sagging positive, (supports,).
+
+        Zero for rigid sleepers, of which it is not known.
+        """
+        return self._moment_of_sleepers(0)
+
+    @cached_property
+    def sleeper_centre_moment(self) -> FloatArray:
+        """Bending moment of every sleeper at its centre, as `sleeper_moment`."""
+        return self._moment_of_sleepers(1)
 
     @cached_property
     def ballast_force(self) -> FloatArray:
         """Compression of the ballast under every sleeper [N], shape (supports,)."""
         parameters = self._track.parameters
+        deformation, rate = self._mean_deformation
         return (
-            parameters.ballast_stiffness * self.sleeper_displacement
-            + parameters.ballast_damping * self._rate(self._track.ballast_rows)
+            parameters.ballast_stiffness * deformation
+            + parameters.ballast_damping * rate
             + self._state.increment[: parameters.supports]
         )
 
@@ -134,6 +158,27 @@ class Observation:
             rates[wheel.rows] += state.force_rate[i] * wheel.shape
             rates[wheel.rows] += state.force[i] * state.speed[i] * wheel.slope
         return rates
+
+    @cached_property
+    def _mean_deformation(self) -> tuple[FloatArray, FloatArray]:
+        """Mean deformation of the linear ballast and its rate, shape (supports,) each."""
+        track = self._track
+        if track.parameters.sleeper == "rigid":
+            return self.ballast_deformation, self._rate(track.ballast_rows)
+        rows = slice(2 * track.parameters.supports, None)
+        shape, flexibility = track.sleeper_shape[rows], track.sleeper_flexibility[rows]
+        return (
+            np.real(shape @ self._modal) + flexibility @ self.forces,
+            np.real(shape @ self._modal_rate) + flexibility @ self._force_rates,
+        )
+
+    def _moment_of_sleepers(self, place: int) -> FloatArray:
+        supports = self._track.parameters.supports
+        if self._track.parameters.sleeper == "rigid":
+            return np.zeros(supports)
+        rows = slice(place * supports, (place + 1) * supports)
+        modal = np.real(self._track.sleeper_shape[rows] @ self._modal)
+        return modal + self._track.sleeper_flexibility[rows] @ self.forces
 
     def _displacement(self, rows: slice) -> FloatArray:
         modal = np.real(self._track.shape[rows] @ self._modal)

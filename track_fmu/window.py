@@ -31,9 +31,16 @@ class Window:
         Holds the offset and is moved with it.
     endless : bool
         Whether it moves.
+
+    Raises
+    ------
+    ValueError
+        If it is to move over sleepers that bend.
     """
 
     def __init__(self, track: ReducedTrack, state: TrackState, *, endless: bool) -> None:
+        if endless and track.parameters.sleeper != "rigid":
+            raise ValueError("track: endless is true, but a track of sleepers that bend cannot be")
         self._parameters, self._state = track.parameters, state
         self._shift = WindowShift(track) if endless else None
 

@@ -12,7 +12,7 @@ from fmu_src.python.basis_cache import cached_basis
 from fmu_src.python.masses_variables import declare_masses
 from fmu_src.python.model_slave import LINEAR_INPUTS
 from fmu_src.python.track_contact_variables import declare_track_contact
-from fmu_src.python.track_variables import TABLE_1, declare_track
+from fmu_src.python.track_variables import SLEEPER, TABLE_1, declare_track
 from fmu_src.python.variables import Variable
 from fmu_src.python.vehicle_variables import declare_vehicle
 from track_fmu.assembly import assemble
@@ -55,7 +55,7 @@ def track_resource(
     reduced = reduce_track(parameters, matrices, basis, residual_flexibility=residual_flexibility)
     declare = declare_track_contact if contact else _declare_track
     variables = declare(parameters, wheels=wheels, gauges=gauges)
-    fixed = {name: asdict(parameters)[name] for name, _, _ in TABLE_1}
+    fixed = {name: asdict(parameters)[name] for name, _, _ in (*TABLE_1, *SLEEPER)}
     fixed |= {"mode_pairs": mode_pairs, "residual_flexibility": residual_flexibility}
     half = _filled(len(reduced.eigenvalues))
     sections: dict[str, Section] = {
@@ -120,7 +120,11 @@ def _modes(reduced: ReducedTrack, half: int) -> dict[str, Section]:
     """The reduced track, rows of modes split and filled up."""
     weight = np.zeros(half)
     weight[: len(reduced.weight)] = reduced.weight
-    return {
+    sleepers: dict[str, Section] = {
+        "sleeper_shape": _rows(reduced.sleeper_shape, half),
+        "sleeper_flexibility": reduced.sleeper_flexibility,
+    }
+    return (sleepers if len(reduced.sleeper_shape) else {}) | {
         "eigenvalues": _rows(reduced.eigenvalues, half),
         "inverses": _rows(1.0 / reduced.eigenvalues, half),
         "weight": weight,

@@ -9,14 +9,18 @@ from functools import partial
 from fmu_src.python.masses_variables import declare_masses
 from fmu_src.python.model_slave import LINEAR_INPUTS
 from fmu_src.python.track_contact_variables import declare_track_contact
-from fmu_src.python.track_variables import TABLE_1, declare_track
+from fmu_src.python.track_variables import SLEEPER, TABLE_1, declare_track
 from fmu_src.python.variables import Value, Variable
 from fmu_src.python.vehicle_variables import declare_vehicle
 from track_fmu.parameters import TrackParameters
 
 from .model_resources import masses_resource, track_resource, vehicle_resource
 
-TRACK_CONSTANTS = (*(name for name, _, _ in TABLE_1), "mode_pairs", "residual_flexibility")
+TRACK_CONSTANTS = (
+    *(name for name, _, _ in (*TABLE_1, *SLEEPER)),
+    "mode_pairs",
+    "residual_flexibility",
+)
 """Parameters of the Python track that are constants of the native one: its modes depend on them."""
 
 FORCE_PORT = ("position", "contact_force", "rail_displacement")
@@ -111,7 +115,7 @@ def native_track(
         raise ValueError(
             f"{unknown[0]} is not fixed in a native track; only {', '.join(TRACK_CONSTANTS)} are"
         )
-    of_track = {name: fixed[name] for name, _, _ in TABLE_1 if name in fixed}
+    of_track = {name: fixed[name] for name, _, _ in (*TABLE_1, *SLEEPER) if name in fixed}
     size = TrackParameters(bays=bays, elements_per_bay=elements_per_bay)
     parameters = replace(size, **of_track)  # type: ignore[arg-type]  # checked by the class
     declare = declare_track_contact if contact else _declare_track

@@ -19,7 +19,7 @@ from railcosim.passage import run_passage
 from railcosim.passage_package import ensure_package
 from railcosim.scenario import Scenario
 from railcosim.sections import Flat, Run
-from railcosim.signals import BODY_SIGNALS, SIGNALS
+from railcosim.signals import BODY_SIGNALS, SIGNALS, SLEEPER_SIGNALS
 
 SHORT = Scenario(flat=Flat(depth=2e-3), run=Run(approach=0.1, departure=0.1))
 """A deep flat strikes: contact is lost and found again within 18 ms."""
@@ -45,13 +45,13 @@ def test_the_package_runs_the_same_passage(fmus, tmp_path):
             scale = 1e-9 * np.abs(expected).max()
             assert system[signal.path(k)].to_numpy() == pytest.approx(expected, rel=0, abs=scale)
             left.remove(signal.path(k))
-    # what the result of a passage has of suspended vehicles only
+    # what the result of a passage has of suspended vehicles and bending sleepers only
     suspended = replace(SHORT, vehicle=replace(SHORT.vehicle, model="suspended"))
     # and of endless tracks only
     left.remove("track.window_position")
     assert left == {
         signal.path(k)
-        for signal in BODY_SIGNALS
+        for signal in (*BODY_SIGNALS, *SLEEPER_SIGNALS)
         for k in range(1, count(suspended)[signal.dim] + 1)
     }
     assert not any(system[name].any() for name in left)

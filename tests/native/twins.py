@@ -22,6 +22,8 @@ TRACK_GROUPS = {
     "sleeper_displacement": "sleeper[#].displacement",
     "pad_force": "pad[#].force",
     "ballast_force": "ballast[#].force",
+    "sleeper_moment": "sleeper[#].bending_moment",
+    "sleeper_centre_moment": "sleeper[#].centre_bending_moment",
     "window_position": "window_position",
 }
 VEHICLE_GROUPS = ("position", "contact_force", "displacement", "velocity", "gap")

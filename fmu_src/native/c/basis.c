@@ -30,6 +30,22 @@ static int masses_fit(const double *inertia)
     return 1;
 }
 
+/* What is observed of the sleepers, which the resource has if they are beams. */
+static rc_status read_sleepers(rc_model *model, rc_basis *basis)
+{
+    const size_t rows = 3 * basis->supports;
+    size_t count;
+    basis->sleeper_shape = basis->sleeper_flexibility = NULL;
+    if (rc_find_section(&model->resource, "sleeper_shape", RC_FLOAT64, &count) == NULL)
+        return RC_OK;
+    if ((basis->sleeper_shape =
+             rc_require_section(model, "sleeper_shape", rows * basis->length)) == NULL ||
+        (basis->sleeper_flexibility = rc_require_section(model, "sleeper_flexibility",
+                                                         rows * basis->coordinates)) == NULL)
+        return RC_ERROR;
+    return RC_OK;
+}
+
 rc_status rc_read_basis(rc_model *model, rc_basis *basis)
 {
     size_t count;
@@ -75,5 +91,5 @@ rc_status rc_read_basis(rc_model *model, rc_basis *basis)
     if (!masses_fit(basis->inertia))
         return rc_fail(model, RC_ERROR, "the resource describes a track without mass; build the "
                                         "FMU again");
-    return RC_OK;
+    return read_sleepers(model, basis);
 }

@@ -80,6 +80,55 @@ static double rate(const view *at, size_t coordinate)
            yield_rate(at, rc_flexibility(at->basis, coordinate));
 }
 
+/* At its rail seat, which moves as the rail above it less the deformation of the pad. */
+static double sleeper_displacement(const view *at, size_t support)
+{
+    const rc_basis *basis = at->basis;
+    if (basis->sleeper_shape == NULL)
+        return displacement(at, rc_ballast(basis, support));
+    return displacement(at, rc_above(basis, support)) - displacement(at, rc_pad(basis, support));
+}
+
+static const double *sleeper_row(const view *at, size_t row)
+{
+    return at->basis->sleeper_shape + row * at->basis->length;
+}
+
+static const double *sleeper_line(const view *at, size_t row)
+{
+    return at->basis->sleeper_flexibility + row * at->basis->coordinates;
+}
+
+/* Of a sleeper that bends: bending moments, or the mean deflection. */
+static double observed(const view *at, size_t row)
+{
+    return rc_product(sleeper_row(at, row), at->modal, at->basis->length) +
+           yield(at, sleeper_line(at, row));
+}
+
+static double sleeper_moment(const view *at, size_t row)
+{
+    return at->basis->sleeper_shape == NULL ? 0.0 : observed(at, row);
+}
+
+/* Mean deformation of the ballast under a sleeper, and its rate. */
+static double ballast_deformation(const view *at, size_t support)
+{
+    const rc_basis *basis = at->basis;
+    return basis->sleeper_shape == NULL ? displacement(at, rc_ballast(basis, support))
+                                        : observed(at, 2 * basis->supports + support);
+}
+
+static double ballast_rate(const view *at, size_t support)
+{
+    const rc_basis *basis = at->basis;
+    const size_t row = 2 * basis->supports + support;
+    if (basis->sleeper_shape == NULL)
+        return rate(at, rc_ballast(basis, support));
+    return rc_product(sleeper_row(at, row), at->modal_rate, basis->length) +
+           yield_rate(at, sleeper_line(at, row));
+}
+
 static double rail_velocity(const view *at, size_t wheel)
 {
     const rc_rail_point *point = &at->wheels[wheel];
@@ -159,17 +208,24 @@ void rc_observe(rc_track *track, const rc_track_state *state, rc_observed what, 
         break;
     case RC_SLEEPER_DISPLACEMENT:
         for (size_t s = 0; s < basis->supports; ++s)
-            values[s] = displacement(&at, rc_ballast(basis, s));
+            values[s] = sleeper_displacement(&at, s);
         break;
     case RC_PAD_FORCE:
         for (size_t s = 0; s < basis->supports; ++s)
             values[s] = basis->pad_stiffness * displacement(&at, rc_pad(basis, s)) +
                         basis->pad_damping * rate(&at, rc_pad(basis, s));
         break;
-    default: /* RC_BALLAST_FORCE */
+    case RC_BALLAST_FORCE:
         for (size_t s = 0; s < basis->supports; ++s)
-            values[s] = basis->ballast_stiffness * displacement(&at, rc_ballast(basis, s)) +
-                        basis->ballast_damping * rate(&at, rc_ballast(basis, s)) +
-                        state->increment[s];
+            values[s] = basis->ballast_stiffness * ballast_deformation(&at, s) +
+                        basis->ballast_damping * ballast_rate(&at, s) + state->increment[s];
+        break;
+    case RC_SLEEPER_MOMENT:
+        for (size_t s = 0; s < basis->supports; ++s)
+            values[s] = sleeper_moment(&at, s);
+        break;
+    default: /* RC_SLEEPER_CENTRE_MOMENT */
+        for (size_t s = 0; s < basis->supports; ++s)
+            values[s] = sleeper_moment(&at, basis->supports + s);
     }
 }

@@ -57,6 +57,9 @@ rc_status rc_prepare_track(rc_model *model, rc_track *track)
         return rc_fail(model, RC_ERROR, "track: initial_speed = %g m/s must be finite",
                        track->initial_speed);
     track->endless = *rc_values(model, ENDLESS) != 0.0;
+    if (track->endless && track->basis.sleeper_shape != NULL)
+        return rc_fail(model, RC_ERROR,
+                       "track: endless is true, but a track of sleepers that bend cannot be");
     if (read_ballast(model, track) != RC_OK || rc_claim_track(model, track) != RC_OK)
         return RC_ERROR;
     for (size_t k = 0; k < track->basis.gauges; ++k) {

@@ -9,6 +9,8 @@
 enum {
     BENDING_STIFFNESS, SHEAR_STIFFNESS, MASS_PER_LENGTH, ROTARY_INERTIA, PAD_STIFFNESS, PAD_DAMPING,
     SLEEPER_MASS, SLEEPER_SPACING, BALLAST_STIFFNESS, BALLAST_DAMPING,
+    SLEEPER, SLEEPER_HALF_LENGTH, SLEEPER_RAIL_SEAT, SLEEPER_BENDING_STIFFNESS,
+    SLEEPER_SHEAR_STIFFNESS, SLEEPER_MASS_PER_LENGTH, SLEEPER_ROTARY_INERTIA, SLEEPER_ELEMENTS,
     BALLAST, BALLAST_ALPHA, BALLAST_BETA, BALLAST_DELTA,
     MODE_PAIRS, RESIDUAL_FLEXIBILITY, SUPPORTS_PER_WHEEL, INITIAL_SPEED, ENDLESS,
     GAUGE_POSITION,
@@ -26,6 +28,15 @@ enum {
     [SLEEPER_SPACING] = {"sleeper_spacing", RC_REAL, RC_CONSTANT, RC_ONE},                         \
     [BALLAST_STIFFNESS] = {"ballast_stiffness", RC_REAL, RC_CONSTANT, RC_ONE},                     \
     [BALLAST_DAMPING] = {"ballast_damping", RC_REAL, RC_CONSTANT, RC_ONE},                         \
+    [SLEEPER] = {"sleeper", RC_TEXT, RC_CONSTANT, RC_ONE},                                         \
+    [SLEEPER_HALF_LENGTH] = {"sleeper_half_length", RC_REAL, RC_CONSTANT, RC_ONE},                 \
+    [SLEEPER_RAIL_SEAT] = {"sleeper_rail_seat", RC_REAL, RC_CONSTANT, RC_ONE},                     \
+    [SLEEPER_BENDING_STIFFNESS] = {"sleeper_bending_stiffness", RC_REAL, RC_CONSTANT, RC_ONE},     \
+    [SLEEPER_SHEAR_STIFFNESS] = {"sleeper_shear_stiffness", RC_REAL, RC_CONSTANT, RC_ONE},         \
+    [SLEEPER_MASS_PER_LENGTH] = {"sleeper_mass_per_length", RC_REAL, RC_CONSTANT, RC_ONE},         \
+    [SLEEPER_ROTARY_INERTIA] = {"sleeper_rotary_inertia_per_length", RC_REAL, RC_CONSTANT,         \
+                                RC_ONE},                                                           \
+    [SLEEPER_ELEMENTS] = {"sleeper_elements", RC_INTEGER, RC_CONSTANT, RC_ONE},                    \
     [BALLAST] = {"ballast", RC_TEXT, RC_PARAMETER, RC_ONE},                                        \
     [BALLAST_ALPHA] = {"ballast_alpha", RC_REAL, RC_PARAMETER, RC_ONE},                            \
     [BALLAST_BETA] = {"ballast_beta", RC_REAL, RC_PARAMETER, RC_ONE},                              \
@@ -48,7 +59,11 @@ enum {
     [(first) + RC_SLEEPER_DISPLACEMENT] = {"sleeper[#].displacement", RC_REAL, RC_OUTPUT,          \
                                            RC_SUPPORTS},                                           \
     [(first) + RC_PAD_FORCE] = {"pad[#].force", RC_REAL, RC_OUTPUT, RC_SUPPORTS},                  \
-    [(first) + RC_BALLAST_FORCE] = {"ballast[#].force", RC_REAL, RC_OUTPUT, RC_SUPPORTS},  \
+    [(first) + RC_BALLAST_FORCE] = {"ballast[#].force", RC_REAL, RC_OUTPUT, RC_SUPPORTS},          \
+    [(first) + RC_SLEEPER_MOMENT] = {"sleeper[#].bending_moment", RC_REAL, RC_OUTPUT,              \
+                                     RC_SUPPORTS},                                                 \
+    [(first) + RC_SLEEPER_CENTRE_MOMENT] = {"sleeper[#].centre_bending_moment", RC_REAL,           \
+                                            RC_OUTPUT, RC_SUPPORTS},                                                  \
     [(first) + RC_WINDOW_POSITION] = {"window_position", RC_REAL, RC_OUTPUT, RC_ONE}
 
 /* Reads the basis and says how many wheels, gauges and supports there are. */
