@@ -1,8 +1,11 @@
 """The suspended vehicle on the rail: wheels in Hertzian contact under bogies and a car body."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from .irregularity import RailIrregularity
+from .out_of_roundness import OutOfRoundness
 from .parameters import FlatParameters, VehicleParameters
 from .speed import SpeedLaw
 from .suspended_motion import advance
@@ -20,7 +23,7 @@ class SuspendedVehicle(VehicleModel):
 
     Parameters
     ----------
-    parameters, flat, speed, flat_table, irregularity
+    parameters, flat, speed, flat_table, irregularity, out_of_roundness
         As for `VehicleModel`.
     suspension : Suspension
         Of as many wheels, with the same masses and loads.
@@ -40,9 +43,15 @@ class SuspendedVehicle(VehicleModel):
         suspension: Suspension,
         flat_table: WheelProfileTable | None = None,
         irregularity: RailIrregularity | None = None,
+        out_of_roundness: Sequence[OutOfRoundness | None] = (),
     ) -> None:
         super().__init__(
-            parameters, flat=flat, speed=speed, flat_table=flat_table, irregularity=irregularity
+            parameters,
+            flat=flat,
+            speed=speed,
+            flat_table=flat_table,
+            irregularity=irregularity,
+            out_of_roundness=out_of_roundness,
         )
         suspension.check_substep(parameters.substep)
         self.suspension = suspension
