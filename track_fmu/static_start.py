@@ -14,6 +14,8 @@ from .track_state import TrackState
 
 MAX_SWEEPS = 100
 TOLERANCE = 1e-12  # relative change of the force increments
+SMALLEST_SHARE = 1e-3  # of a change
+ROUNDING = 1e-9  # of a tangent stiffness
 
 
 def static_start(
@@ -49,7 +51,8 @@ def static_start(
     Raises
     ------
     RuntimeError
-        If the force increments do not converge.
+        If the force increments do not converge, or the load on a component falls with its
+        displacement there: then there are other equilibria.
     """
     eigenvalues, weight = track.eigenvalues, track.weight
     contact = np.array([w.shape @ track.shape[w.rows] for w in wheels])
@@ -60,6 +63,7 @@ def static_start(
     contact_load, contact_load_rate = forces @ contact, speed * (forces @ slope)
 
     increment, increment_rate = np.zeros(active.count), np.zeros(active.count)
+    search = _LineSearch()
     for _ in range(MAX_SWEEPS):
         load = contact_load - increment @ active.shape
         load_rate = contact_load_rate - increment_rate @ active.shape
@@ -69,9 +73,14 @@ def static_start(
         rate = np.real(weighted @ (eigenvalues * modal + load))
         if active.count == 0:
             break
-        tangent = active.stiffness(deformation)
+        miss = active.force(deformation, rate) - increment
+        if active.stiff and search.is_too_far(miss):
+            increment = search.shorter()
+            continue
+        tangent = active.stiffness(deformation, rate)
         matrix = np.eye(active.count) + tangent[:, None] * compliance
-        change = np.linalg.solve(matrix, active.force(deformation, rate) - increment)
+        change = np.asarray(np.linalg.solve(matrix, miss))
+        search.begin(increment, change, miss)
         # the rate with the present increment rate taken out, then solved for both together
         free_rate = rate + (compliance - active.flexibility) @ increment_rate
         new_rate = np.linalg.solve(matrix, tangent * free_rate)
@@ -86,6 +95,8 @@ def static_start(
             f"track: no static equilibrium found in {MAX_SWEEPS} sweeps under the contact forces "
             f"{', '.join(f'{force:.6g}' for force in forces)} N; check the ballast and pad laws"
         )
+    _refuse_falling(track, active, deformation, rate)
+    active.remember(state.pads, deformation, rate)
     state.force[:], state.force_rate[:], state.speed[:] = forces, 0.0, speed
     state.increment[:], state.increment_rate[:] = 0.0, 0.0
     state.increment[active.number] = increment
@@ -94,3 +105,43 @@ def static_start(
     state.displacement[:] = np.real((contact * weight) @ modal)
     state.displacement += np.array([w.shape @ residual[w.rows] for w in wheels]) @ forces
     state.displacement -= residual[active.rows].T @ increment
+
+
+class _LineSearch:
+    """Shortens changes that make matters worse; where gaps close, Newton's full one may."""
+
+    def __init__(self) -> None:
+        self._share, self._size = 0.0, np.inf
+
+    def begin(self, start: FloatArray, change: FloatArray, miss: FloatArray) -> None:
+        """Note a change from a start where so much is missed."""
+        self._start, self._change = start, change
+        self._share, self._size = 1.0, float(np.max(np.abs(miss)))
+
+    def is_too_far(self, miss: FloatArray) -> bool:
+        """Whether more is missed than at the start, and the change can be shortened."""
+        return self._share > SMALLEST_SHARE and float(np.max(np.abs(miss))) > self._size
+
+    def shorter(self) -> FloatArray:
+        """Return what half of the change before leads to."""
+        self._share *= 0.5
+        return self._start + self._share * self._change
+
+
+def _refuse_falling(
+    track: ReducedTrack, active: ActiveComponents, deformation: FloatArray, rate: FloatArray
+) -> None:
+    """Refuse an equilibrium on a falling branch of a characteristic."""
+    if active.count == 0:
+        return
+    own, supports = track.parameters, track.parameters.supports
+    linear = np.where(active.number < supports, own.ballast_stiffness, own.pad_stiffness)
+    whole = active.stiffness(deformation, np.zeros_like(rate)) + linear
+    worst = int(np.argmin(whole / linear))
+    if whole[worst] < -ROUNDING * linear[worst]:
+        kind = "ballast" if active.number[worst] < supports else "pad"
+        raise RuntimeError(
+            f"track: the load on the {kind} of support {active.number[worst] % supports + 1} falls "
+            f"with its displacement at {deformation[worst]:.3g} m ({whole[worst]:.3g} N/m): the "
+            "static equilibrium is not the only one; use a law whose load rises"
+        )

@@ -78,8 +78,9 @@ class ContactPair:
         """Numpy's state as the native one has it, and the native one; names and values."""
         wheels = self.wheels
         lengths = {"position": wheels, "speed": wheels, "force": wheels, "force_rate": wheels,
-                   "displacement": wheels, "increment": self.supports,
-                   "increment_rate": self.supports, "modal": 2 * filled(self.modes),
+                   "displacement": wheels, "increment": 2 * self.supports,
+                   "increment_rate": 2 * self.supports, "pads": 3 * self.supports,
+                   "modal": 2 * filled(self.modes),
                    "load": 2 * filled(self.modes), "compression": wheels, "ahead": wheels,
                    "origin": wheels, "history": 6 * wheels, "ages": 2, "passed": 1}  # fmt: skip
         own = self._to_native(self.numpy.state)

@@ -12,10 +12,14 @@
 
 #define MOST_SWEEPS 100
 #define TOLERANCE 1e-12 /* relative change of the force increments */
+#define SMALLEST_SHARE 1e-3 /* of a change */
+#define ROUNDING 1e-9       /* of a tangent stiffness */
 
 typedef struct {
     double *increment, *rate_of_increment; /* the unknowns, (stride) each */
     double *deformation, *rate, *tangent, *defect, *change, *new_rate;
+    double *start, *full; /* increments before the last change, and that change */
+    double *free_rate;    /* without that of the increments */
     double *residual;    /* (stride): deformation by the contact forces, without modes */
     double *compliance;  /* (stride, stride), residual flexibility included */
     double *flexibility; /* (stride, stride), residual only */
@@ -37,6 +41,9 @@ static equilibrium lay_out(rc_track *track)
                          .change = at + 6 * stride,
                          .new_rate = at + 7 * stride,
                          .residual = at + 8 * stride,
+                         .start = at + 9 * stride,
+                         .full = at + 10 * stride,
+                         .free_rate = at + 11 * stride,
                          .compliance = track->products,
                          .flexibility = track->products + square,
                          .matrix = track->products + 2 * square,
@@ -63,7 +70,7 @@ static void load_track(rc_track *track, const equilibrium *at, const double *for
         rc_add_combination(at->contact_load_rate, &row, &rate, 1, basis->length);
         for (size_t a = 0; a < track->active.count; ++a)
             at->residual[a] +=
-                rc_residual(basis, wheel, rc_ballast(basis, track->active.number[a])) * forces[i];
+                rc_residual(basis, wheel, rc_component(basis, track->active.number[a])) * forces[i];
     }
     for (size_t n = 0; n < half; ++n) { /* minus w / lambda */
         track->row[n] = -basis->weight[n] * basis->inverses[n];
@@ -113,16 +120,61 @@ static void deform(rc_track *track, const equilibrium *at, rc_track_state *state
                        active->stride);
 }
 
+static const rc_pad_memory AT_REST = {0.0, NULL, NULL, NULL};
+
+/* How much of the last change was taken, and what was missed before it. */
+typedef struct {
+    double share, size;
+} search;
+
+static void begin_search(const equilibrium *at, search *way, size_t count)
+{
+    memcpy(at->start, at->increment, count * sizeof(double));
+    memcpy(at->full, at->change, count * sizeof(double));
+    way->share = 1.0;
+    way->size = rc_largest(at->defect, count);
+}
+
+/* Whether the last change made matters worse, as where gaps close; then half of it is taken. */
+static int is_too_far(const equilibrium *at, search *way, size_t count)
+{
+    if (!(way->share > SMALLEST_SHARE && rc_largest(at->defect, count) > way->size))
+        return 0;
+    way->share *= 0.5;
+    for (size_t a = 0; a < count; ++a)
+        at->increment[a] = at->start[a] + way->share * at->full[a];
+    return 1;
+}
+
+/* Whether the load on a component falls with its displacement: there are other equilibria then. */
+static int falls(rc_track *track, const equilibrium *at)
+{
+    const rc_laws *laws = &track->laws;
+    const size_t count = track->active.count;
+    double *rest = at->defect, *damping = at->change;
+    memset(rest, 0, count * sizeof(double));
+    rc_law_tangents(laws, &track->active, &AT_REST, at->deformation, rest, 0, at->tangent, damping);
+    for (size_t a = 0; a < count; ++a) {
+        const double linear = track->active.number[a] < laws->supports ? laws->ballast_stiffness
+                                                                       : laws->pad_stiffness;
+        if (at->tangent[a] + linear < -ROUNDING * linear)
+            return 1;
+    }
+    return 0;
+}
+
 /* One sweep of Newton's iteration; 1 if it changed next to nothing, -1 if it failed. */
-static int sweep(rc_track *track, const equilibrium *at)
+static int sweep(rc_track *track, const equilibrium *at, search *way)
 {
     const size_t count = track->active.count, stride = track->active.stride;
     memset(at->matrix, 0, count * stride * sizeof(double));
-    for (size_t a = 0; a < count; ++a) {
-        at->tangent[a] = rc_ballast_stiffness(&track->law, at->deformation[a]);
-        at->defect[a] = rc_ballast_force(&track->law, at->deformation[a], at->rate[a]) -
-                        at->increment[a];
-    }
+    rc_law_forces(&track->laws, &track->active, &AT_REST, at->deformation, at->rate, at->defect);
+    for (size_t a = 0; a < count; ++a)
+        at->defect[a] -= at->increment[a];
+    if (rc_is_stiff(&track->laws) && is_too_far(at, way, count))
+        return 0;
+    rc_law_tangents(&track->laws, &track->active, &AT_REST, at->deformation, at->rate, 0,
+                    at->tangent, at->change);
     for (size_t b = 0; b < count; ++b) { /* transposed, see rc_transform */
         for (size_t a = 0; a < count; ++a)
             at->matrix[b * stride + a] = at->tangent[a] * at->compliance[b * stride + a];
@@ -131,11 +183,13 @@ static int sweep(rc_track *track, const equilibrium *at)
     if (!rc_invert(at->matrix, count, stride, track->pivot))
         return -1;
     rc_transform(at->change, at->matrix, at->defect, count, stride);
+    begin_search(at, way, count);
     /* the rate with the present increment rate taken out, then solved for both together */
-    rc_add_transformed(at->rate, 1.0, at->compliance, at->rate_of_increment, count, stride);
-    rc_add_transformed(at->rate, -1.0, at->flexibility, at->rate_of_increment, count, stride);
+    memcpy(at->free_rate, at->rate, stride * sizeof(double));
+    rc_add_transformed(at->free_rate, 1.0, at->compliance, at->rate_of_increment, count, stride);
+    rc_add_transformed(at->free_rate, -1.0, at->flexibility, at->rate_of_increment, count, stride);
     for (size_t a = 0; a < count; ++a)
-        at->defect[a] = at->tangent[a] * at->rate[a];
+        at->defect[a] = at->tangent[a] * at->free_rate[a];
     rc_transform(at->new_rate, at->matrix, at->defect, count, stride);
     for (size_t a = 0; a < count; ++a) {
         at->defect[a] = at->new_rate[a] - at->rate_of_increment[a];
@@ -163,7 +217,7 @@ static void press_contacts(rc_track *track, const equilibrium *at, const double 
             sum += rc_residual_between(basis, wheel, wheel->shape, &track->points[j],
                                        track->points[j].shape) * forces[j];
         for (size_t a = 0; a < track->active.count; ++a)
-            sum -= rc_residual(basis, wheel, rc_ballast(basis, track->active.number[a])) *
+            sum -= rc_residual(basis, wheel, rc_component(basis, track->active.number[a])) *
                    at->increment[a];
         state->displacement[i] = sum;
     }
@@ -177,13 +231,20 @@ int rc_static_start(rc_track *track, rc_track_state *state, const double *forces
     /* the weight as a complex row, for duals: scratch is free again after load_track */
     memcpy(track->scratch, basis->weight, basis->half * sizeof(double));
     memset(track->scratch + basis->half, 0, basis->half * sizeof(double));
+    search way = {0.0, 0.0};
     for (int done = 0, left = MOST_SWEEPS; done != 1; --left) {
         if (left == 0 || done == -1)
             return 0;
         deform(track, &at, state);
-        done = track->active.count == 0 ? 1 : sweep(track, &at);
+        done = track->active.count == 0 ? 1 : sweep(track, &at, &way);
     }
-    memset(state->increment, 0, 2 * basis->supports * sizeof(double)); /* and their rates */
+    if (falls(track, &at))
+        return 0;
+    /* and their rates, and what pads remember */
+    memset(state->increment, 0, 7 * basis->supports * sizeof(double));
+    if (track->laws.pad == RC_VISCOELASTIC)
+        rc_law_memories(&track->laws, &track->active, &AT_REST, at.deformation, at.rate,
+                        state->branch_force, state->compression, state->known);
     for (size_t a = 0; a < track->active.count; ++a) {
         state->increment[track->active.number[a]] = at.increment[a];
         state->increment_rate[track->active.number[a]] = at.rate_of_increment[a];

@@ -6,30 +6,36 @@
 
 size_t rc_count_state(const rc_basis *basis)
 {
-    return 5 * basis->wheels + 2 * basis->supports + 2 * basis->length;
+    return 5 * basis->wheels + 7 * basis->supports + 2 * basis->length;
 }
 
 rc_track_state rc_view_state(const rc_basis *basis, double *values)
 {
     const size_t wheels = basis->wheels;
-    double *supports = values + 5 * wheels, *rows = supports + 2 * basis->supports;
+    const size_t supports = basis->supports;
+    double *increment = values + 5 * wheels, *memory = increment + 4 * supports;
+    double *rows = memory + 3 * supports;
     return (rc_track_state){.position = values,
                             .speed = values + wheels,
                             .force = values + 2 * wheels,
                             .force_rate = values + 3 * wheels,
                             .displacement = values + 4 * wheels,
-                            .increment = supports,
-                            .increment_rate = supports + basis->supports,
+                            .increment = increment,
+                            .increment_rate = increment + 2 * supports,
+                            .branch_force = memory,
+                            .compression = memory + supports,
+                            .known = memory + 2 * supports,
                             .modal = rows,
                             .load = rows + basis->length};
 }
 
 int rc_is_finite(const rc_basis *basis, const rc_track_state *state)
 {
-    double sum = 0.0; /* of differences with themselves: zero or no number */
-    for (size_t i = 0; i < 5 * basis->wheels + 2 * basis->supports; ++i)
-        sum += state->position[i] - state->position[i];
-    return sum == 0.0;
+    double sums[4] = {0.0}; /* of differences with themselves: zero or no number */
+    const double *values = state->position;
+    for (size_t i = 0; i < 5 * basis->wheels + 7 * basis->supports; ++i)
+        sums[i % 4] += values[i] - values[i];
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]) == 0.0;
 }
 
 /* Hands out memory, or only measures it while `memory` is NULL. */
@@ -116,7 +122,7 @@ static void take_all(store *from, rc_track *track, size_t room)
     track->dual_rows = take(from, duals, sizeof(double *));
     track->products = numbers(from, 3 * room * room + duals * room + wheels * (1 + wheels));
     track->scratch = numbers(from, RC_COUPLING_COLUMNS * (length + room));
-    track->small = numbers(from, 9 * room);
+    track->small = numbers(from, RC_SMALL_ROWS * room);
     track->row = numbers(from, length);
     track->other_row = numbers(from, length);
     track->before = numbers(from, state);
@@ -128,6 +134,12 @@ static void take_all(store *from, rc_track *track, size_t room)
     track->pressed = numbers(from, wheels);
 }
 
+static void release_memory(rc_track *track)
+{
+    free(track->memory);
+    track->memory = NULL;
+}
+
 rc_status rc_claim_track(rc_model *model, rc_track *track)
 {
     const rc_basis *basis = &track->basis;
@@ -135,9 +147,9 @@ rc_status rc_claim_track(rc_model *model, rc_track *track)
         track->per_wheel < basis->supports ? track->per_wheel : basis->supports;
     const size_t most = basis->wheels * per_wheel < basis->supports ? basis->wheels * per_wheel
                                                                     : basis->supports;
-    const size_t room = track->room = rc_stride(most);
+    const size_t room = track->room = rc_stride(most * rc_kinds(&track->laws));
     store sizes = {NULL, 0};
-    rc_release_track(track);
+    release_memory(track);
     take_all(&sizes, track, room);
     track->memory = calloc(1, sizes.used + ALIGNMENT);
     if (track->memory == NULL)
@@ -154,14 +166,17 @@ rc_status rc_claim_track(rc_model *model, rc_track *track)
 
 void rc_release_track(rc_track *track)
 {
-    free(track->memory);
-    track->memory = NULL;
+    release_memory(track);
+    rc_free_laws(&track->laws);
 }
 
 void rc_choose_supports(rc_track *track, const double *positions)
 {
-    if (track->state_dependent)
-        rc_choose_active(&track->active, &track->basis, positions, track->per_wheel, track->first);
+    const int ballast = track->laws.ballast != RC_NO_INCREMENT;
+    const int pads = track->laws.pad != RC_NO_INCREMENT;
+    if (ballast || pads)
+        rc_choose_active(&track->active, &track->basis, positions, track->per_wheel, ballast, pads,
+                         track->first);
     else
         track->active.count = track->active.stride = 0;
 }
