@@ -2,6 +2,9 @@
 
     python benchmarks/passage.py
 
+The last two rows are the same passage as one system of equations, without FMUs or a master; `steps
+of each FMU` are evaluations of its derivative there.
+
 Every row is the paper's case (40 km/h, haversine flat, state-dependent track). The peak error is
 against Newton coupling with fixed steps of 20 us; wall times compare on one machine only.
 """
@@ -15,6 +18,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is loaded
 from rich.console import Console
 from rich.table import Table
 
+from railcosim.monolithic import solve
+from railcosim.monolithic.solution import Model
 from railcosim.passage import run_passage
 from railcosim.scenario_file import read_scenario
 from railcosim.signals import ContactSide
@@ -34,6 +39,12 @@ ON_TRACK = {
     "contact on the track, 200 us": ("master.step=2e-4",),
     "contact on the track, 100 us (default)": (),
     "contact on the track, 50 us": ("master.step=5e-5",),
+}
+
+
+MONOLITHS: dict[str, Model] = {
+    "as one system, modes with residual": "modal",
+    "as one system, all nodes": "full",
 }
 
 
@@ -68,6 +79,9 @@ def main() -> None:
                     "peak error %"):  # fmt: skip
         table.add_column(heading, justify="right")
     measured = {kind: measure(kind) for kind in ("native", "python")}
+    measured["none"] = {
+        name: summarise(solve(read_scenario(), model=model)) for name, model in MONOLITHS.items()
+    }
     exact = measured["native"]["newton, 20 us (reference)"].peak_contact_force
     for kind, summaries in measured.items():
         for name, summary in summaries.items():

@@ -1,4 +1,4 @@
-"""The command line: `railcosim run`, `cosim`, `receptance` and the other commands."""
+"""The command line: `railcosim run`, `cosim` and the other commands."""
 
 import signal
 import sys
@@ -12,6 +12,8 @@ from .commands.check import check
 from .commands.compare import compare
 from .commands.cosim import cosim
 from .commands.endings import say
+from .commands.evaluate import evaluate
+from .commands.figures import figures
 from .commands.load_displacement import load_displacement
 from .commands.receptance import receptance
 from .commands.replay import replay
@@ -19,6 +21,7 @@ from .commands.report import report
 from .commands.run import run
 from .commands.sweep import sweep
 from .commands.tune import tune
+from .commands.verify import verify
 
 USAGE_ERROR: Any = typer.BadParameter.__mro__[1]
 """What typer raises for a wrong command line; newer versions bring a click of their own."""
@@ -33,12 +36,15 @@ app = typer.Typer(
 
 COMMANDS = (
     run,
-    sweep,
-    cosim,
+    verify,
+    evaluate,
     report,
     compare,
+    sweep,
+    figures,
     receptance,
     load_displacement,
+    cosim,
     build,
     replay,
     check,

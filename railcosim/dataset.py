@@ -9,7 +9,7 @@ import xarray as xr
 
 from .run_record import ATTEMPT_COLUMNS
 from .scenario_file import to_toml
-from .signals import COMPRESSION, FORWARDS, SIGNALS
+from .signals import COMPRESSION, FORWARDS, SIGNALS, labels
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -91,7 +91,7 @@ def attempt_variables(attempts: Mapping[str, NDArray[np.generic]]) -> dict[str, 
         f"attempt_{name}": (
             "attempt",
             attempts[name],
-            _attributes(units, meaning),
+            labels(units, meaning),
             # Texts of a fixed length take an eighth of the memory to write.
             {"dtype": "S1"} if name == "cause" else {},
         )
@@ -104,28 +104,28 @@ def _coordinates(
 ) -> dict[str, object]:
     """Label the dimensions by numbers from 1, and by the positions they stand for."""
     numbers = {
-        dim: (dim, np.arange(1, n + 1), _attributes("1", f"number of the {dim}"))
+        dim: (dim, np.arange(1, n + 1), labels("1", f"number of the {dim}"))
         for dim, n in count(scenario).items()
     }
     spacing = scenario.track.sleeper_spacing
     sleepers = spacing * np.arange(1, scenario.track.bays)
     gauges = np.array(scenario.gauge_positions)
     return numbers | {
-        "time": ("time", times, _attributes("s", "time since the start of the run")),
+        "time": ("time", times, labels("s", "time since the start of the run")),
         "distance": (
             "time",
             distance,
-            _attributes("m", "distance of the flat's wheel from the flat's centre", FORWARDS),
+            labels("m", "distance of the flat's wheel from the flat's centre", FORWARDS),
         ),
         "sleeper_position": (
             "sleeper",
             sleepers,
-            _attributes("m", "position of the sleeper along the rail", FORWARDS),
+            labels("m", "position of the sleeper along the rail", FORWARDS),
         ),
         "gauge_position": (
             "gauge",
             gauges,
-            _attributes("m", "position of the gauge along the rail", FORWARDS),
+            labels("m", "position of the gauge along the rail", FORWARDS),
         ),
     }
 
@@ -133,19 +133,15 @@ def _coordinates(
 def _constants(scenario: Scenario) -> dict[str, object]:
     """Name what the series are measured against."""
     return {
-        "flat_wheel": ((), scenario.flat.wheel, _attributes("1", "number of the flat's wheel")),
+        "flat_wheel": ((), scenario.flat.wheel, labels("1", "number of the flat's wheel")),
         "flat_position": (
             (),
             scenario.flat_position,
-            _attributes("m", "position where the flat's centre meets the rail", FORWARDS),
+            labels("m", "position where the flat's centre meets the rail", FORWARDS),
         ),
         "static_wheel_load": (
             (),
             scenario.vehicle.static_wheel_load,
-            _attributes("N", "static wheel-rail force of a wheel", COMPRESSION),
+            labels("N", "static wheel-rail force of a wheel", COMPRESSION),
         ),
     }
-
-
-def _attributes(units: str, long_name: str, sign: str = "none") -> dict[str, str]:
-    return {"units": units, "long_name": long_name, "sign": sign}

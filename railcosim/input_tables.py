@@ -52,6 +52,48 @@ def read_as(
         raise InputError(f"table {path}: {error}") from error
 
 
+def read_flat(scenario: Scenario) -> tuple[FlatParameters, WheelProfileTable | None]:
+    """Read the flat of a scenario, with the table of a measured one, and see that it fits.
+
+    Raises
+    ------
+    InputError
+        For a file that is no such table, or a flat that does not fit on its wheel.
+    """
+    flat = scenario.flat
+    table = (
+        read_as(WheelProfileTable, flat.shape, ("distance", "drop")) if flat.is_measured else None
+    )
+    parameters = FlatParameters(
+        shape=cast("FlatShape", "table" if flat.is_measured else flat.shape),
+        length=flat.length,
+        depth=flat.depth,
+        wheel=flat.wheel,
+        position=scenario.flat_position,
+        periodic=flat.periodic,
+        rolled=flat.rolled,
+    )
+    try:
+        check_flat(
+            parameters, table, radius=scenario.vehicle.wheel_radius, wheels=scenario.vehicle.wheels
+        )
+    except ValueError as error:
+        raise InputError(str(error)) from error
+    return parameters, table
+
+
+def read_irregularity(scenario: Scenario) -> RailIrregularity | None:
+    """Read the irregularity of the railhead, None for a smooth one.
+
+    Raises
+    ------
+    InputError
+        For a file that is no such table.
+    """
+    path = scenario.vehicle.rail_irregularity
+    return read_as(RailIrregularity, path, ("position", "drop")) if path else None
+
+
 def check_profiles(scenario: Scenario) -> None:
     """Read the measured flat and the rail irregularity, and see that the flat fits on the wheel.
 
@@ -60,29 +102,11 @@ def check_profiles(scenario: Scenario) -> None:
     InputError
         For a file that is no such table, or a flat that does not fit.
     """
-    vehicle, flat = scenario.vehicle, scenario.flat
-    if vehicle.rail_irregularity:
-        read_as(RailIrregularity, vehicle.rail_irregularity, ("position", "drop"))
+    read_irregularity(scenario)
+    flat, table = read_flat(scenario)
     if flat.shape == "none":
         return
-    table = None
-    begins = -0.5 * flat.length
-    if flat.is_measured:
-        table = read_as(WheelProfileTable, flat.shape, ("distance", "drop"))
-        begins = float(table.distance[0])
-    shape = cast("FlatShape", "table" if flat.is_measured else flat.shape)
-    parameters = FlatParameters(
-        shape=shape,
-        length=flat.length,
-        depth=flat.depth,
-        wheel=flat.wheel,
-        periodic=flat.periodic,
-        rolled=flat.rolled,
-    )
-    try:
-        check_flat(parameters, table, radius=vehicle.wheel_radius, wheels=vehicle.wheels)
-    except ValueError as error:
-        raise InputError(str(error)) from error
+    begins = -0.5 * flat.length if table is None else float(table.distance[0])
     if scenario.run.approach < -begins:
         raise InputError(
             f"run.approach is {scenario.run.approach:g} m but the flat begins {-begins:g} m before "

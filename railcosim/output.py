@@ -7,12 +7,14 @@ import importlib.util
 import os
 import tempfile
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .errors import InputError, RunError
+from .mat_file import write_mat
 from .reserved_file import ReservedFile
 from .table import columns
 
@@ -23,8 +25,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-DATA_SUFFIXES = (".nc", ".csv", ".parquet")
+DATA_SUFFIXES = (".nc", ".csv", ".parquet", ".mat")
 """Kinds of result file."""
+
+TABLE_SUFFIXES = (".csv", ".parquet")
+"""Those that hold one table."""
 
 FIGURE_SUFFIXES = (".png", ".pdf", ".svg")
 """Kinds of figure file."""
@@ -89,15 +94,17 @@ def check_writable(path: Path, *, option: str, suffixes: tuple[str, ...]) -> Non
         raise InputError(f"{option} {path} is not writable: choose another place")
 
 
-def write_dataset(passage: xr.Dataset, path: Path) -> None:
-    """Write a result in one piece: everything as NetCDF-4, or its time series as CSV or Parquet.
+def write_dataset(result: xr.Dataset, path: Path, *, along: str | None = None) -> None:
+    """Write a result in one piece: everything as NetCDF-4 or MAT, or one table as CSV or Parquet.
 
     Parameters
     ----------
-    passage : xarray.Dataset
-        Result of a passage or of another co-simulation.
+    result : xarray.Dataset
+        Result of a passage or of another co-simulation, or what was worked out from one.
     path : Path
-        File that ends with .nc, .csv or .parquet.
+        File that ends with one of `DATA_SUFFIXES`.
+    along : str, optional
+        Dimension of the rows of a table; see `table.columns`.
 
     Raises
     ------
@@ -106,11 +113,12 @@ def write_dataset(passage: xr.Dataset, path: Path) -> None:
     """
     writers: dict[str, Callable[[xr.Dataset, Path], None]] = {
         ".nc": _write_netcdf,
-        ".csv": _write_csv,
-        ".parquet": _write_parquet,
+        ".mat": write_mat,
+        ".csv": partial(_write_csv, along=along),
+        ".parquet": partial(_write_parquet, along=along),
     }
     with replacing(path) as temporary:
-        writers[path.suffix.lower()](passage, temporary)
+        writers[path.suffix.lower()](result, temporary)
 
 
 def write_figure(figure: Figure, path: Path) -> None:
@@ -158,9 +166,9 @@ def _encoded(texts: xr.DataArray) -> xr.DataArray:
     return texts.copy(data=texts.to_numpy().astype(np.bytes_)).assign_attrs(_Encoding="utf-8")
 
 
-def _write_csv(passage: xr.Dataset, path: Path) -> None:
+def _write_csv(result: xr.Dataset, path: Path, *, along: str | None) -> None:
     """Write one row per accepted time; the shortest digits that give the same number back."""
-    series = list(columns(passage))
+    series = list(columns(result, along))
     with path.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
         writer.writerow([column.label for column in series])
@@ -169,18 +177,18 @@ def _write_csv(passage: xr.Dataset, path: Path) -> None:
             writer.writerows(zip(*(_plain(column.values[part]) for column in series), strict=True))
 
 
-def _write_parquet(passage: xr.Dataset, path: Path) -> None:
+def _write_parquet(result: xr.Dataset, path: Path, *, along: str | None) -> None:
     """Write one row per accepted time; units, long names, signs and the scenario as metadata."""
     import pyarrow as pa  # noqa: PLC0415 - an optional library, looked for by `check_writable`
     import pyarrow.parquet as pq  # noqa: PLC0415 - likewise
 
-    series = list(columns(passage))
+    series = list(columns(result, along))
     schema = pa.schema(
         [
             pa.field(c.label, pa.from_numpy_dtype(c.values.dtype), metadata=c.attributes)
             for c in series
         ],
-        metadata={key: str(value) for key, value in passage.attrs.items()},
+        metadata={key: str(value) for key, value in result.attrs.items()},
     )
     pq.write_table(pa.table([pa.array(c.values) for c in series], schema=schema), path)
 

@@ -1,4 +1,4 @@
-"""Reading the result of a passage back from its file."""
+"""Results read back from files."""
 
 from __future__ import annotations
 
@@ -14,13 +14,15 @@ if TYPE_CHECKING:
 
 
 def read_passage(path: Path) -> xr.Dataset:
-    """Read what `output.write_dataset` wrote of a passage as NetCDF.
+    """Read the result of a passage, which `output.write_dataset` wrote as NetCDF.
 
     Raises
     ------
     InputError
         For a file that cannot be read or holds something else.
     """
+    if not path.is_file():
+        raise InputError(f"there is no file {path}: check the path")
     try:
         with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as stored:
             passage = stored.load()

@@ -16,6 +16,21 @@ FORWARDS = "positive in the direction of travel"
 SAGGING = "positive sagging: tension in the rail foot"
 
 
+def labels(units: str, long_name: str, sign: str = "none") -> dict[str, str]:
+    """Return the attributes of a variable in a result.
+
+    Parameters
+    ----------
+    units : str
+        As the CF conventions write them.
+    long_name : str
+        What it is.
+    sign : str
+        What is positive; ``none`` where nothing can be negative.
+    """
+    return {"units": units, "long_name": long_name, "sign": sign}
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Signal:
     """One output of an FMU over all wheels, sleepers or gauges.
@@ -48,7 +63,7 @@ class Signal:
     @property
     def attributes(self) -> dict[str, str]:
         """Attributes of the series in the result."""
-        return {"units": self.units, "long_name": self.long_name, "sign": self.sign}
+        return labels(self.units, self.long_name, self.sign)
 
 
 SIGNALS = (

@@ -34,31 +34,35 @@ class Column:
     attributes: dict[str, str]
 
 
-def columns(passage: xr.Dataset) -> Iterator[Column]:
-    """Yield every series over time, the time itself first; without time, over the first dimension.
+def columns(result: xr.Dataset, along: str | None = None) -> Iterator[Column]:
+    """Yield every series over time, or along another dimension, that dimension itself first.
 
     Parameters
     ----------
-    passage : xarray.Dataset
+    result : xarray.Dataset
         Result of a passage, of another co-simulation, or of a study over frequency and the like.
+    along : str, optional
+        Dimension of the rows, time or else the first one without; what does not have it as its
+        first dimension is left out.
 
     Yields
     ------
     Column
         In the order of the dataset's variables.
     """
-    rows = "time" if "time" in passage.dims else next(iter(passage.dims))
-    along = [name for name, axis in passage.coords.items() if axis.dims == (rows,)]
-    names = dict.fromkeys([rows, *along, *passage.data_vars])
+    if along is None:
+        along = "time" if "time" in result.dims else str(next(iter(result.dims)))
+    over_rows = [name for name, axis in result.coords.items() if axis.dims == (along,)]
+    names = dict.fromkeys([along, *over_rows, *result.data_vars])
     for name in names:
-        variable = passage[name]
-        if variable.dims == (rows,):
+        variable = result[name]
+        if variable.dims == (along,):
             yield _column(variable, str(name))
-        elif variable.dims[:1] == (rows,):
+        elif variable.dims[:1] == (along,):
             others = variable.dims[1:]
             for place in product(*(range(variable.sizes[dim]) for dim in others)):
                 one = dict(zip(others, place, strict=True))
-                key = ",".join(str(passage[dim].to_numpy()[k]) for dim, k in one.items())
+                key = ",".join(str(result[dim].to_numpy()[k]) for dim, k in one.items())
                 yield _column(variable.isel(one), f"{name}[{key}]")
 
 

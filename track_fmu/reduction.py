@@ -91,7 +91,7 @@ def reduce_track(
         use to see what it is worth.
     """
     coordinates = _coordinate_operator(matrices)
-    static_moments, modal_moments = _moment_operators(parameters, matrices)
+    static_moments, modal_moments = moment_operators(parameters, matrices)
     shape = np.asarray(coordinates @ basis.modes)
     moment_shape = np.asarray(
         static_moments @ basis.modes + (modal_moments @ basis.modes) * basis.eigenvalues**2
@@ -141,7 +141,7 @@ def _real_product(left: ComplexArray, right: ComplexArray) -> FloatArray:
     return np.asarray(left.real @ right.real.T - left.imag @ right.imag.T)
 
 
-def _moment_operators(
+def moment_operators(
     parameters: TrackParameters, matrices: TrackMatrices
 ) -> tuple[sp.csr_array, sp.csr_array]:
     """Operators S and D, shape (nodes, N), of the nodal bending moments ``S x + D x''``.

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from pythonfmu import Fmi2Slave, Real
 from pythonfmu.enums import Fmi2Status
 
+from .library_end import end_in_order
 from .model_description import complete
 from .slave_state import SlaveState, from_bytes, to_bytes
 from .variables import Value, Variable, make_scalar
@@ -68,6 +69,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
 
     def __init__(self, **kwargs: Any) -> None:  # noqa: ANN401 - pythonfmu's own signature
         super().__init__(**kwargs)
+        end_in_order(self.resources)
         self._declared = list(self.declare())
         self._linear = False
         self._phase = Phase.INSTANTIATED

@@ -28,6 +28,7 @@ from .vehicle_slave import VehicleSlave
 
 SHARED = (
     "__init__.py",
+    "library_end.py",
     "model_description.py",
     "model_slave.py",
     "slave_state.py",

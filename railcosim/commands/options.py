@@ -42,7 +42,9 @@ Json = Annotated[
     bool, typer.Option("--json", help="Print the numbers as one JSON object, SI units.")
 ]
 Plot = Annotated[Path | None, typer.Option(metavar="FILE", help="Figure: .png, .pdf or .svg.")]
-Output = Annotated[Path | None, typer.Option(metavar="FILE", help="Result: .nc, .csv or .parquet.")]
+Output = Annotated[
+    Path | None, typer.Option(metavar="FILE", help="Result: .nc, .csv, .parquet or .mat.")
+]
 Replay = Annotated[
     Path | None,
     typer.Option(

@@ -43,7 +43,8 @@ def time_shift(result: Polyline, baseline: Polyline) -> float:
     """
     start, stop = baseline.span
     finest = min(np.diff(result.times).min(), np.diff(baseline.times).min())
-    count = int(np.clip((stop - start) / finest, 64, MOST_SAMPLES)) + 1
+    finest = max(finest, (stop - start) / MOST_SAMPLES)
+    count = max(int((stop - start) / finest), 64) + 1
     grid = np.linspace(start, stop, count)
     spacing = (stop - start) / (count - 1)
     errors = _squared_differences(result.at(grid)[1], baseline.at(grid)[1])

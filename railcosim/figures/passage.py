@@ -57,7 +57,11 @@ def describe(scenario: Scenario) -> str:
     """Say in one line which passage a scenario is."""
     vehicle, flat = scenario.vehicle, scenario.flat
     speed = "speed table" if vehicle.speed_table else f"{3.6 * vehicle.constant_speed:g} km/h"
-    wheel = "round wheels" if flat.shape == "none" else f"{_size(flat)} flat on wheel {flat.wheel}"
+    wheel = (
+        "round wheels"
+        if flat.shape == "none"
+        else f"{describe_flat(flat)} flat on wheel {flat.wheel}"
+    )
     rail = ", rail irregularity" if vehicle.rail_irregularity else ""
     return f"{speed}, {wheel}{rail}, {scenario.track.ballast.replace('_', '-')} track"
 
@@ -68,7 +72,7 @@ def strikes_once(scenario: Scenario) -> bool:
     return flat.shape != "none" and not flat.periodic and not scenario.vehicle.rail_irregularity
 
 
-def _size(flat: Flat) -> str:
+def describe_flat(flat: Flat) -> str:
     """Say which flat it is by the parameters that its shape uses."""
     kinds = "".join(f"{word} " for word in ("periodic", "rolled") if getattr(flat, word))
     if flat.is_measured:

@@ -68,7 +68,7 @@ def compute_receptance(
     """
     curves = {method: study.receptance(frequencies, method) for method in methods}
     table = np.stack(list(curves.values()), axis=1)
-    peaks = study.peaks(frequencies, np.abs(table[:, 0]), methods[0])
+    peaks = study.peaks(float(frequencies[0]), float(frequencies[-1]), methods[0])
     return xr.Dataset(
         {
             "amplitude": (

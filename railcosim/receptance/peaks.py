@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,9 @@ if TYPE_CHECKING:
 
 PROMINENCE_DB = 3.0
 """How far a peak rises above its surroundings; ripples from the ends of the track stay below."""
+
+SPACING = 0.005
+"""Of the frequencies at which they are looked for, relative: a third of the narrowest width."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,16 +38,16 @@ class Peak:
 
 
 def find_peaks(
-    frequencies: FloatArray, amplitude: FloatArray, evaluate: Callable[[float], float]
+    lowest: float, highest: float, amplitude: Callable[[FloatArray], FloatArray]
 ) -> list[Peak]:
-    """Find the peaks that stand out by `PROMINENCE_DB`, between the sampled frequencies too.
+    """Find the peaks that stand out by `PROMINENCE_DB`.
 
     Parameters
     ----------
-    frequencies, amplitude : (n,) float array
-        Sampled receptance [Hz], [m/N].
-    evaluate : callable
-        Amplitude [m/N] at any frequency [Hz].
+    lowest, highest : float
+        Where they are looked for [Hz].
+    amplitude : callable
+        Amplitude [m/N] at frequencies [Hz], (n,) float arrays.
 
     Returns
     -------
@@ -52,12 +56,15 @@ def find_peaks(
     """
     from scipy import signal  # noqa: PLC0415 - takes long to import and serves this command only
 
-    places, _ = signal.find_peaks(20.0 * np.log10(amplitude), prominence=PROMINENCE_DB)
+    count = math.ceil(math.log(highest / lowest) / SPACING)
+    frequencies = np.geomspace(lowest, highest, max(count, 3))
+    sampled = 20.0 * np.log10(amplitude(frequencies))
+    places, _ = signal.find_peaks(sampled, prominence=PROMINENCE_DB)
     peaks = []
     for k in places:
         around = float(frequencies[k - 1]), float(frequencies[k + 1])
         found = minimize_scalar(
-            lambda f: -evaluate(float(f)),
+            lambda f: -float(amplitude(np.array([f]))[0]),
             bounds=around,
             method="bounded",
             options={"xatol": 1e-4 * (around[1] - around[0])},

@@ -33,6 +33,9 @@ if TYPE_CHECKING:
 METHODS = ("direct", "modal")
 """Ways to a receptance: the dynamic stiffness of the whole track, or its modes."""
 
+NEIGHBOURHOOD = 4.0
+"""By which factor beyond the frequencies asked for a resonance is compared with what is around."""
+
 
 def midspan(scenario: Scenario) -> Place:
     """Middle of the bay in which the flat strikes."""
@@ -94,13 +97,14 @@ class ReceptanceStudy:
             tangent=self._tangent,
         )
 
-    def peaks(self, frequencies: FloatArray, amplitude: FloatArray, method: str) -> list[Peak]:
-        """Resonances in a sampled receptance [m/N], found between the samples [Hz] too."""
+    def peaks(self, lowest: float, highest: float, method: str) -> list[Peak]:
+        """Resonances between two frequencies [Hz], which stand out from a wider neighbourhood."""
 
-        def evaluate(frequency: float) -> float:
-            return float(np.abs(self.receptance(np.array([frequency]), method)[0]))
+        def amplitude(frequencies: FloatArray) -> FloatArray:
+            return np.abs(self.receptance(frequencies, method))
 
-        return find_peaks(frequencies, amplitude, evaluate)
+        found = find_peaks(lowest / NEIGHBOURHOOD, highest * NEIGHBOURHOOD, amplitude)
+        return [peak for peak in found if lowest <= peak.frequency <= highest]
 
     @cached_property
     def _parameters(self) -> TrackParameters:

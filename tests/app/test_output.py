@@ -93,7 +93,7 @@ def test_a_writable_place_is_left_as_it_was(tmp_path):
 
 def test_places_that_cannot_be_written_are_refused_before_the_run(tmp_path):
     for path, part in (
-        (tmp_path / "passage.txt", "must end with one of .nc, .csv, .parquet"),
+        (tmp_path / "passage.txt", "must end with one of .nc, .csv, .parquet, .mat"),
         (tmp_path / "missing" / "passage.nc", "folder that does not exist"),
         (tmp_path, "must end with"),
     ):
@@ -124,7 +124,7 @@ def test_a_failed_write_leaves_the_old_file_and_nothing_else(passage, tmp_path, 
     path = tmp_path / "passage.csv"
     path.write_text("before")
 
-    def fill_disk(_passage, temporary):
+    def fill_disk(_passage, temporary, **_):
         temporary.write_text("half")
         raise OSError(errno.ENOSPC, "No space left on device")
 

@@ -132,9 +132,12 @@ def test_a_million_steps_of_cosim_take_no_more_memory_than_a_few(monkeypatch, tm
     assert np.ptp(recorder.weights) < 4 * megabyte
     exact = start + np.arange(steps + 1) * size
     assert recorder.time.tobytes() == exact.tobytes()
+    # loads the libraries that write: they weigh the same whatever is written
+    write_dataset(result.isel(time=slice(2), attempt=slice(1)), tmp_path / "few.nc")
+    before = private_memory()
     write_dataset(result, tmp_path / "fast.nc")
     # One column and the causes as texts are in memory while the file is written.
-    assert private_memory() - recorder.weights[-1] < 80 * megabyte
+    assert private_memory() - before < 40 * megabyte
     with xr.open_dataset(tmp_path / "fast.nc", engine="h5netcdf") as stored:
         assert stored.attrs["steps_accepted"] == steps
         assert stored.attrs["simulated_time"] == stop == exact[-1]

@@ -199,3 +199,9 @@ def test_wrong_studies_are_refused(values, message):
 def test_wrong_ranges_are_refused(values, message):
     with pytest.raises(InputError, match=message):
         frequency_range(*values)
+
+
+def test_peaks_do_not_depend_on_where_the_range_ends(table1, curves):
+    narrow = compute_receptance(table1, frequency_range(50.0, 270.0, 50), ("direct",))
+    found = narrow["peak_frequency"].to_numpy()
+    assert found == pytest.approx(curves["peak_frequency"].to_numpy()[:2], abs=0.02)

@@ -70,7 +70,7 @@ def test_a_scenario_is_run_and_its_numbers_printed(call, runs, passage, tmp_path
     [
         (["--set", "flat.depht=1"], "flat.depth"),
         (["missing.toml"], "No such file"),
-        (["missing.nc"], "missing.nc cannot be read as a result"),
+        (["missing.nc"], "there is no file missing.nc"),
         (["--output", "report.pdf"], "must end with one of .html"),
         (["--output", "missing/report.html"], "does not exist"),
     ],

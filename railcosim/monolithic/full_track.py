@@ -1,0 +1,115 @@
+"""The whole finite element track, without modes: nodal displacements and velocities as the state.
+
+``mass = diag(I, M)`` and ``matrix = [[0, I], [-K, -C]]`` are sparse and stay so.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.linalg import cho_solve_banded, cholesky_banded
+
+from track_fmu.assembly import TrackMatrices, to_banded
+from track_fmu.reduction import moment_operators
+
+from .linear_track import Feedthrough, Matrix, Ports
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from track_fmu.parameters import TrackParameters
+
+FREQUENCY = 1e4
+"""Velocities are tolerated to be wrong by this times the tolerance of displacements [rad/s]."""
+
+
+class FullTrack:
+    """The track of Eq. (2) in physical coordinates; see `LinearTrack`.
+
+    Parameters
+    ----------
+    parameters : TrackParameters
+        The track.
+    matrices : TrackMatrices
+        The same, assembled.
+    """
+
+    def __init__(self, parameters: TrackParameters, matrices: TrackMatrices) -> None:
+        self.parameters = parameters
+        self._matrices = matrices
+        size = matrices.numbering.size
+        unit = sp.eye_array(size, format="csc")
+        self.mass: sp.csc_array | None = sp.csc_array(sp.block_diag([unit, matrices.mass]))
+        self.matrix: Matrix = sp.csc_array(
+            sp.block_array([[0.0 * unit, unit], [-matrices.stiffness, -matrices.damping]])
+        )
+        self.scale = np.concatenate((np.ones(size), np.full(size, FREQUENCY)))
+        self._factor = cholesky_banded(to_banded(matrices.mass), lower=True)
+        self._stiffness = sp.csr_array(matrices.stiffness)
+        self._damping = sp.csr_array(matrices.damping)
+        sleepers, nothing = matrices.ballast_incidence.T, sp.csr_array((parameters.supports, size))
+        on_velocity = sp.csc_array(sp.hstack([nothing, sleepers]))
+        self.sleepers = Ports(
+            sp.csc_array(sp.hstack([sleepers, nothing])), on_velocity, on_velocity
+        )
+        self._dofs = np.hstack([matrices.numbering.rail[:-1], matrices.numbering.rail[1:]])
+        self._moments = moment_operators(parameters, matrices)
+
+    @property
+    def _size(self) -> int:
+        return self._matrices.numbering.size
+
+    def begin(
+        self, displacement: NDArray[np.float64], velocity: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """See `LinearTrack.begin`."""
+        return np.concatenate((displacement, velocity))
+
+    def advance(self, state: NDArray[np.float64], load: NDArray[np.float64]) -> NDArray[np.float64]:
+        """See `LinearTrack.advance`."""
+        displacement, velocity = state[: self._size], state[self._size :]
+        force = load[self._size :] - self._stiffness @ displacement - self._damping @ velocity
+        acceleration = cho_solve_banded((self._factor, True), force, check_finite=False)
+        return np.concatenate((velocity, acceleration))
+
+    def wheels(self, elements: NDArray[np.intp], weights: NDArray[np.float64]) -> Ports:
+        """See `LinearTrack.wheels`."""
+        count = len(elements)
+        rows = np.zeros((count, self._size + 1))  # the last column takes what is clamped
+        rows[np.arange(count)[:, None], self._dofs[elements]] = weights
+        nothing = np.zeros((count, self._size))
+        on_velocity = np.hstack([nothing, rows[:, :-1]])
+        return Ports(np.hstack([rows[:, :-1], nothing]), on_velocity, on_velocity)
+
+    def feedthrough(
+        self, elements: NDArray[np.intp], weights: NDArray[np.float64]
+    ) -> Feedthrough | None:
+        """Return None: a force moves nothing at once."""
+        del elements, weights
+        return None
+
+    def nodal_moments(
+        self,
+        nodes: NDArray[np.intp],
+        states: NDArray[np.float64],
+        rates: NDArray[np.float64],
+        loads: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
+        """See `LinearTrack.nodal_moments`: ``K_e x + M_e x''``."""
+        del loads
+        static, inertial = self._moments
+        displacement, acceleration = states[: self._size], rates[self._size :]
+        return np.asarray(static[nodes] @ displacement + inertial[nodes] @ acceleration)
+
+    def pads(
+        self,
+        states: NDArray[np.float64],
+        rates: NDArray[np.float64],
+        loads: NDArray[np.float64],
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """See `LinearTrack.pads`."""
+        del loads
+        incidence = self._matrices.pad_incidence.T
+        return incidence @ states[: self._size], incidence @ rates[: self._size]

@@ -1,0 +1,118 @@
+"""The equations of the monolith: derivatives, start, and both forms of the contact."""
+
+import numpy as np
+import pytest
+
+from railcosim.errors import InputError
+from railcosim.monolithic import solve
+from railcosim.monolithic.integrators import Accuracy
+from railcosim.monolithic.solution import make_system
+from railcosim.scenario_file import read_scenario
+from railcosim.summary import summarise
+
+STATIC_LOAD = 117_720.0
+MASS = 592.5
+SMALL = ("track.bays=10", "flat.position=3.6", "run.approach=0.2", "run.departure=0.2")
+ONE = (*SMALL, "vehicle.wheels=1")
+BOTH = [("modal", "hertz"), ("modal", "constraint"), ("full", "hertz"), ("full", "constraint")]
+
+
+def small(*overrides):
+    return read_scenario(None, (*ONE, *overrides))
+
+
+@pytest.mark.parametrize(("model", "form"), BOTH)
+def test_the_jacobian_is_the_derivative(model, form):
+    scenario = read_scenario(None, SMALL)
+    system, state = make_system(scenario, model=model, contact_form=form)
+    change = 1e-9 * system.scale * np.random.default_rng(4).standard_normal(system.size)
+    time = 1e-4
+    rates = (system.rates(time, state + change) - system.rates(time, state - change)) / 2.0
+    if system.mass is not None:
+        rates = system.mass @ rates
+    expected = system.jacobian(time, state) @ change
+    # central differences of a law with curvature 1e12 N/m2 over 1 nm, and rounding
+    assert np.abs(rates - expected).max() < 1e-5 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize(("model", "form"), BOTH)
+def test_the_start_is_static(model, form):
+    system, state = make_system(small(), model=model, contact_form=form)
+    now = system.instant(0.0, state)
+    # the modes that are left out do not follow the velocity of the track
+    assert now.forces.force[0] == pytest.approx(STATIC_LOAD, rel=1e-4)
+    assert (system.gaps(0.0, state) < 0.0).all()
+
+
+@pytest.fixture(scope="module")
+def solutions():
+    scenario = small("flat.depth=1.4e-3")
+    times = np.linspace(0.0, 0.036, 721)
+    return {
+        (model, form): solve(scenario, model=model, contact_form=form, times=times)
+        for model, form in BOTH
+    }
+
+
+def force(passage):
+    return passage["contact_force"].sel(wheel=1).to_numpy()
+
+
+def test_both_forms_of_the_contact_have_one_solution(solutions):
+    """Through loss and recovery of contact; the tolerances of the integration remain."""
+    for model in ("modal", "full"):
+        one, other = solutions[model, "hertz"], solutions[model, "constraint"]
+        assert one.attrs["switches"] == other.attrs["switches"] >= 2
+        assert force(one).min() == 0.0
+        assert np.abs(force(one) - force(other)).max() < 3e-3 * STATIC_LOAD
+
+
+def test_modes_with_residual_are_the_full_track_under_a_smooth_flat(solutions):
+    modal, full = (summarise(solutions[model, "hertz"]) for model in ("modal", "full"))
+    for name in (
+        "peak_contact_force",
+        "max_sleeper_displacement",
+        "peak_bending_moment_midspan",
+        "peak_bending_moment_under_wheel",
+    ):
+        assert getattr(modal, name) == pytest.approx(getattr(full, name), rel=3e-3), name
+    assert modal.loss_of_contact_time == pytest.approx(full.loss_of_contact_time, abs=2e-5)
+
+
+@pytest.mark.parametrize("kind", BOTH)
+def test_the_wheel_obeys_newton(solutions, kind):
+    """The trapezoidal rule over 50 us leaves less than a thousandth of the static impulse."""
+    passage = solutions[kind]
+    time = passage["time"].to_numpy()
+    velocity = passage["wheel_velocity"].sel(wheel=1).to_numpy()
+    impulse = np.trapezoid(STATIC_LOAD - force(passage), time)
+    change = MASS * (velocity[-1] - velocity[0])
+    assert impulse == pytest.approx(change, abs=1e-5 * STATIC_LOAD * time[-1])
+
+
+def test_rail_velocity_is_the_derivative_of_rail_displacement(solutions):
+    for kind in BOTH:
+        passage = solutions[kind]
+        rail = passage["rail_displacement"].sel(wheel=1).to_numpy()
+        slope = np.gradient(rail, passage["time"].to_numpy())[1:-1]
+        ours = passage["rail_velocity"].sel(wheel=1).to_numpy()[1:-1]
+        # mean, since the slope of the rail jumps where the wheel passes a node
+        assert np.abs(slope - ours).mean() < 5e-3 * np.abs(ours).max()
+
+
+def test_a_tighter_tolerance_changes_little():
+    scenario = small("run.approach=0.1", "run.departure=0.1")
+    rough, fine = (solve(scenario, accuracy=Accuracy(atol=atol)) for atol in (1e-8, 1e-9))
+    assert fine.attrs["steps_accepted"] > rough.attrs["steps_accepted"]
+    assert np.abs(force(rough) - force(fine)).max() < 2e-3 * STATIC_LOAD
+
+
+def test_what_cannot_be_used_is_refused():
+    with pytest.raises(InputError, match="model is 'half' but must be one of modal, full"):
+        solve(small(), model="half")
+    with pytest.raises(InputError, match=r"rtol is 1\.0 but must lie between"):
+        Accuracy(rtol=1.0)
+    with pytest.raises(InputError, match="method is 'Euler' but must be one of Radau, BDF"):
+        Accuracy(method="Euler")
+    with pytest.raises(InputError, match="must be two or more, increase and lie between"):
+        solve(small(), times=np.array([0.0, 1.0]))
