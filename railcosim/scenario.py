@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from .errors import InputError
 from .master_section import Master
 from .sections import DEFAULT_SPEED_KMH, Flat, Run, Track, Vehicle
+from .variation import Variation
 
 BEHIND_MIDSPAN = 0.025
 """How far behind the middle of its bay the flat's centre meets the rail by default [m]."""
@@ -21,7 +22,7 @@ class Scenario:
 
     Attributes
     ----------
-    track, vehicle, flat, run, master
+    track, variation, vehicle, flat, run, master
         The sections of the scenario file.
 
     Raises
@@ -31,12 +32,14 @@ class Scenario:
     """
 
     track: Track = field(default_factory=Track)
+    variation: Variation = field(default_factory=Variation)
     vehicle: Vehicle = field(default_factory=Vehicle)
     flat: Flat = field(default_factory=Flat)
     run: Run = field(default_factory=Run)
     master: Master = field(default_factory=Master)
 
     def __post_init__(self) -> None:
+        self.variation.check_supports(self.track.bays - 1)
         self._check_flat()
         self._check_start_of_track()
         self._check_end_of_track()

@@ -15,12 +15,14 @@ from .master_section import Master
 from .scenario import Scenario
 from .sections import Flat, Run, Track, Vehicle
 from .toml_text import parse_toml, read_text
+from .variation import Variation
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
 SECTIONS: Mapping[str, type[Any]] = {
     "track": Track,
+    "variation": Variation,
     "vehicle": Vehicle,
     "flat": Flat,
     "run": Run,

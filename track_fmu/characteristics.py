@@ -9,7 +9,6 @@ import math
 from typing import NamedTuple, Protocol
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from .beam_element import FloatArray
 
@@ -123,6 +122,8 @@ class TableCharacteristic:
         at_origin = displacement == 0.0
         if not (at_origin.any() and load[at_origin][0] == 0.0):
             raise ValueError("load over displacement: the point 0 m, 0 N must be in the table")
+        from scipy.interpolate import PchipInterpolator  # noqa: PLC0415 - takes long to import
+
         self._curve = PchipInterpolator(displacement, load)
         self._ends = float(displacement[0]), float(displacement[-1])
         self._stiffness = stiffness

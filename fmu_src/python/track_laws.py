@@ -54,13 +54,16 @@ def make_laws(
 
 
 def support_factors(supports: int, parameters: Mapping[str, Any]) -> SupportFactors:
-    """What the supports have of their own."""
+    """What the supports have of their own; nominal where nothing is given."""
     return SupportFactors(
         **{
             name.removesuffix("_factor"): np.array(
-                [float(parameters[f"support[{i}].{name}"]) for i in range(1, supports + 1)]
+                [
+                    float(parameters.get(f"support[{i}].{name}", start))
+                    for i in range(1, supports + 1)
+                ]
             )
-            for name, _, _, _ in SUPPORT_PARAMETERS
+            for name, start, _, _ in SUPPORT_PARAMETERS
         }
     )
 

@@ -60,7 +60,10 @@ def test_files_are_sought_beside_the_scenario_or_in_the_working_directory(
     [
         ("vehicle.sped_kmh=3", ["did you mean vehicle.speed_kmh", "speed_table", "wheel_mass"]),
         ("vehicle.depth=3", ["did you mean flat.depth"]),
-        ("wagon.speed_kmh=3", ["wagon", "[track], [vehicle], [flat], [run], [master]"]),
+        (
+            "wagon.speed_kmh=3",
+            ["wagon", "[track], [variation], [vehicle], [flat], [run], [master]"],
+        ),
         ("speed_kmh=3", ["section.key=value", "--set vehicle.speed_kmh="]),
         ("flat.depth", ["section.key=value", "flat.depth"]),
         ("", ["section.key=value"]),
