@@ -15,6 +15,7 @@ from .commands.endings import say
 from .commands.evaluate import evaluate
 from .commands.figures import figures
 from .commands.load_displacement import load_displacement
+from .commands.pad import pad
 from .commands.receptance import receptance
 from .commands.replay import replay
 from .commands.report import report
@@ -44,6 +45,7 @@ COMMANDS = (
     figures,
     receptance,
     load_displacement,
+    pad,
     cosim,
     build,
     replay,

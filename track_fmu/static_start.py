@@ -73,14 +73,16 @@ def static_start(
         rate = np.real(weighted @ (eigenvalues * modal + load))
         if active.count == 0:
             break
+        if active.stiff and search.is_under_way:
+            missed = active.force(deformation, search.rate) - increment
+            if search.is_too_far(missed):
+                increment = search.shorter()
+                continue
         miss = active.force(deformation, rate) - increment
-        if active.stiff and search.is_too_far(miss):
-            increment = search.shorter()
-            continue
         tangent = active.stiffness(deformation, rate)
         matrix = np.eye(active.count) + tangent[:, None] * compliance
         change = np.asarray(np.linalg.solve(matrix, miss))
-        search.begin(increment, change, miss)
+        search.begin(increment, change, rate, miss)
         # the rate with the present increment rate taken out, then solved for both together
         free_rate = rate + (compliance - active.flexibility) @ increment_rate
         new_rate = np.linalg.solve(matrix, tangent * free_rate)
@@ -108,14 +110,27 @@ def static_start(
 
 
 class _LineSearch:
-    """Shortens changes that make matters worse; where gaps close, Newton's full one may."""
+    """Shortens changes that make matters worse; where gaps close, Newton's full one may.
+
+    Attributes
+    ----------
+    rate : (c,) float array
+        Rates of deformation at which what is missed is compared: the rates change by themselves.
+    """
 
     def __init__(self) -> None:
         self._share, self._size = 0.0, np.inf
 
-    def begin(self, start: FloatArray, change: FloatArray, miss: FloatArray) -> None:
-        """Note a change from a start where so much is missed."""
-        self._start, self._change = start, change
+    @property
+    def is_under_way(self) -> bool:
+        """Whether a change has begun."""
+        return self._share > 0.0
+
+    def begin(
+        self, start: FloatArray, change: FloatArray, rate: FloatArray, miss: FloatArray
+    ) -> None:
+        """Note a change from a start where so much is missed, at given rates of deformation."""
+        self._start, self._change, self.rate = start, change, rate
         self._share, self._size = 1.0, float(np.max(np.abs(miss)))
 
     def is_too_far(self, miss: FloatArray) -> bool:

@@ -19,6 +19,7 @@ typedef struct {
     double *increment, *rate_of_increment; /* the unknowns, (stride) each */
     double *deformation, *rate, *tangent, *defect, *change, *new_rate;
     double *start, *full; /* increments before the last change, and that change */
+    double *first_rate;   /* rates of deformation before it */
     double *free_rate;    /* without that of the increments */
     double *residual;    /* (stride): deformation by the contact forces, without modes */
     double *compliance;  /* (stride, stride), residual flexibility included */
@@ -44,6 +45,7 @@ static equilibrium lay_out(rc_track *track)
                          .start = at + 9 * stride,
                          .full = at + 10 * stride,
                          .free_rate = at + 11 * stride,
+                         .first_rate = at + 12 * stride,
                          .compliance = track->products,
                          .flexibility = track->products + square,
                          .matrix = track->products + 2 * square,
@@ -131,6 +133,7 @@ static void begin_search(const equilibrium *at, search *way, size_t count)
 {
     memcpy(at->start, at->increment, count * sizeof(double));
     memcpy(at->full, at->change, count * sizeof(double));
+    memcpy(at->first_rate, at->rate, count * sizeof(double));
     way->share = 1.0;
     way->size = rc_largest(at->defect, count);
 }
@@ -168,11 +171,18 @@ static int sweep(rc_track *track, const equilibrium *at, search *way)
 {
     const size_t count = track->active.count, stride = track->active.stride;
     memset(at->matrix, 0, count * stride * sizeof(double));
+    if (rc_is_stiff(&track->laws) && way->share > 0.0) {
+        /* at the rates that it began with: these change by themselves */
+        rc_law_forces(&track->laws, &track->active, &AT_REST, at->deformation, at->first_rate,
+                      at->defect);
+        for (size_t a = 0; a < count; ++a)
+            at->defect[a] -= at->increment[a];
+        if (is_too_far(at, way, count))
+            return 0;
+    }
     rc_law_forces(&track->laws, &track->active, &AT_REST, at->deformation, at->rate, at->defect);
     for (size_t a = 0; a < count; ++a)
         at->defect[a] -= at->increment[a];
-    if (rc_is_stiff(&track->laws) && is_too_far(at, way, count))
-        return 0;
     rc_law_tangents(&track->laws, &track->active, &AT_REST, at->deformation, at->rate, 0,
                     at->tangent, at->change);
     for (size_t b = 0; b < count; ++b) { /* transposed, see rc_transform */
