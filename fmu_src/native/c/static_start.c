@@ -10,16 +10,18 @@
 #include "rows.h"
 #include "track.h"
 
-#define MOST_SWEEPS 100
+#define MOST_SWEEPS 400
 #define TOLERANCE 1e-12 /* relative change of the force increments */
 #define SMALLEST_SHARE 1e-3 /* of a change */
+#define OVERSHOOT 0.1       /* slope of the energy behind a change over the fall before it */
 #define ROUNDING 1e-9       /* of a tangent stiffness */
 
 typedef struct {
     double *increment, *rate_of_increment; /* the unknowns, (stride) each */
     double *deformation, *rate, *tangent, *defect, *change, *new_rate;
     double *start, *full; /* increments before the last change, and that change */
-    double *first_rate;   /* rates of deformation before it */
+    double *still;        /* zeros */
+    double *weight;       /* compliance times the last change */
     double *free_rate;    /* without that of the increments */
     double *residual;    /* (stride): deformation by the contact forces, without modes */
     double *compliance;  /* (stride, stride), residual flexibility included */
@@ -45,7 +47,8 @@ static equilibrium lay_out(rc_track *track)
                          .start = at + 9 * stride,
                          .full = at + 10 * stride,
                          .free_rate = at + 11 * stride,
-                         .first_rate = at + 12 * stride,
+                         .still = at + 12 * stride,
+                         .weight = at + 13 * stride,
                          .compliance = track->products,
                          .flexibility = track->products + square,
                          .matrix = track->products + 2 * square,
@@ -62,6 +65,7 @@ static void load_track(rc_track *track, const equilibrium *at, const double *for
     const size_t stride = track->active.stride, half = basis->half;
     const double *row = track->row;
     memset(at->increment, 0, 9 * stride * sizeof(double));
+    memset(at->still, 0, stride * sizeof(double));
     memset(at->contact_load, 0, 2 * basis->length * sizeof(double));
     for (size_t i = 0; i < basis->wheels; ++i) {
         const rc_rail_point *wheel = &track->points[i];
@@ -124,24 +128,35 @@ static void deform(rc_track *track, const equilibrium *at, rc_track_state *state
 
 static const rc_pad_memory AT_REST = {0.0, NULL, NULL, NULL};
 
-/* How much of the last change was taken, and what was missed before it. */
+/* How much of the last change was taken, and how the energy fell before it: along a change d of the
+ * increments its slope is -(C d) . miss, with the compliance C. */
 typedef struct {
-    double share, size;
+    double share, fall;
+    int last; /* whether the rates of the increments are those of the equilibrium */
 } search;
 
-static void begin_search(const equilibrium *at, search *way, size_t count)
+static double dot(const double *a, const double *b, size_t count)
+{
+    double sum = 0.0;
+    for (size_t k = 0; k < count; ++k)
+        sum += a[k] * b[k];
+    return sum;
+}
+
+static void begin_search(const equilibrium *at, search *way, size_t count, size_t stride)
 {
     memcpy(at->start, at->increment, count * sizeof(double));
     memcpy(at->full, at->change, count * sizeof(double));
-    memcpy(at->first_rate, at->rate, count * sizeof(double));
     way->share = 1.0;
-    way->size = rc_largest(at->defect, count);
+    rc_transform(at->weight, at->compliance, at->full, count, stride); /* it is symmetric */
+    way->fall = dot(at->weight, at->defect, count);
 }
 
-/* Whether the last change made matters worse, as where gaps close; then half of it is taken. */
+/* Whether the last change led uphill, as where gaps close; then half of it is taken. */
 static int is_too_far(const equilibrium *at, search *way, size_t count)
 {
-    if (!(way->share > SMALLEST_SHARE && rc_largest(at->defect, count) > way->size))
+    if (!(way->share > SMALLEST_SHARE &&
+          dot(at->weight, at->defect, count) < -OVERSHOOT * way->fall))
         return 0;
     way->share *= 0.5;
     for (size_t a = 0; a < count; ++a)
@@ -154,9 +169,8 @@ static int falls(rc_track *track, const equilibrium *at)
 {
     const rc_laws *laws = &track->laws;
     const size_t count = track->active.count;
-    double *rest = at->defect, *damping = at->change;
-    memset(rest, 0, count * sizeof(double));
-    rc_law_tangents(laws, &track->active, &AT_REST, at->deformation, rest, 0, at->tangent, damping);
+    rc_law_tangents(laws, &track->active, &AT_REST, at->deformation, at->still, 0, at->tangent,
+                    at->change);
     for (size_t a = 0; a < count; ++a) {
         const double linear = track->active.number[a] < laws->supports ? laws->ballast_stiffness
                                                                        : laws->pad_stiffness;
@@ -171,19 +185,16 @@ static int sweep(rc_track *track, const equilibrium *at, search *way)
 {
     const size_t count = track->active.count, stride = track->active.stride;
     memset(at->matrix, 0, count * stride * sizeof(double));
-    if (rc_is_stiff(&track->laws) && way->share > 0.0) {
-        /* at the rates that it began with: these change by themselves */
-        rc_law_forces(&track->laws, &track->active, &AT_REST, at->deformation, at->first_rate,
-                      at->defect);
-        for (size_t a = 0; a < count; ++a)
-            at->defect[a] -= at->increment[a];
-        if (is_too_far(at, way, count))
-            return 0;
-    }
-    rc_law_forces(&track->laws, &track->active, &AT_REST, at->deformation, at->rate, at->defect);
+    /* dampers of stiff laws bear nothing, and the rates of their increments are found once: where
+     * gaps are about to close they would switch for ever */
+    const int stiff = rc_is_stiff(&track->laws);
+    const double *motion = stiff ? at->still : at->rate;
+    rc_law_forces(&track->laws, &track->active, &AT_REST, at->deformation, motion, at->defect);
     for (size_t a = 0; a < count; ++a)
         at->defect[a] -= at->increment[a];
-    rc_law_tangents(&track->laws, &track->active, &AT_REST, at->deformation, at->rate, 0,
+    if (stiff && is_too_far(at, way, count))
+        return 0;
+    rc_law_tangents(&track->laws, &track->active, &AT_REST, at->deformation, motion, 0,
                     at->tangent, at->change);
     for (size_t b = 0; b < count; ++b) { /* transposed, see rc_transform */
         for (size_t a = 0; a < count; ++a)
@@ -193,7 +204,7 @@ static int sweep(rc_track *track, const equilibrium *at, search *way)
     if (!rc_invert(at->matrix, count, stride, track->pivot))
         return -1;
     rc_transform(at->change, at->matrix, at->defect, count, stride);
-    begin_search(at, way, count);
+    begin_search(at, way, count, stride);
     /* the rate with the present increment rate taken out, then solved for both together */
     memcpy(at->free_rate, at->rate, stride * sizeof(double));
     rc_add_transformed(at->free_rate, 1.0, at->compliance, at->rate_of_increment, count, stride);
@@ -203,14 +214,22 @@ static int sweep(rc_track *track, const equilibrium *at, search *way)
     rc_transform(at->new_rate, at->matrix, at->defect, count, stride);
     for (size_t a = 0; a < count; ++a) {
         at->defect[a] = at->new_rate[a] - at->rate_of_increment[a];
-        at->rate_of_increment[a] = at->new_rate[a];
         at->increment[a] += at->change[a];
     }
     const double scale = TOLERANCE * rc_largest(at->increment, count);
+    const int found = rc_largest(at->change, count) <= scale;
+    if (!stiff || found)
+        memcpy(at->rate_of_increment, at->new_rate, count * sizeof(double));
+    if (stiff) {
+        const int done = found && way->last;
+        if (found)
+            *way = (search){0.0, 0.0, 1};
+        return isfinite(scale) ? done : -1;
+    }
     const double rate_scale = TOLERANCE * rc_largest(at->rate_of_increment, count) + scale;
     if (!isfinite(rate_scale))
         return -1;
-    return rc_largest(at->change, count) <= scale && rc_largest(at->defect, count) <= rate_scale;
+    return found && rc_largest(at->defect, count) <= rate_scale;
 }
 
 /* Displacements of the rail under the wheels. */
@@ -241,7 +260,7 @@ int rc_static_start(rc_track *track, rc_track_state *state, const double *forces
     /* the weight as a complex row, for duals: scratch is free again after load_track */
     memcpy(track->scratch, basis->weight, basis->half * sizeof(double));
     memset(track->scratch + basis->half, 0, basis->half * sizeof(double));
-    search way = {0.0, 0.0};
+    search way = {0.0, 0.0, 0};
     for (int done = 0, left = MOST_SWEEPS; done != 1; --left) {
         if (left == 0 || done == -1)
             return 0;
@@ -253,7 +272,7 @@ int rc_static_start(rc_track *track, rc_track_state *state, const double *forces
     /* and their rates, and what pads remember */
     memset(state->increment, 0, 7 * basis->supports * sizeof(double));
     if (track->laws.pad == RC_VISCOELASTIC)
-        rc_law_memories(&track->laws, &track->active, &AT_REST, at.deformation, at.rate,
+        rc_law_memories(&track->laws, &track->active, &AT_REST, at.deformation, at.still,
                         state->branch_force, state->compression, state->known);
     for (size_t a = 0; a < track->active.count; ++a) {
         state->increment[track->active.number[a]] = at.increment[a];

@@ -9,7 +9,7 @@
 #include "supports.h"
 
 #define RC_LONGEST_STEP 5e-4 /* s; longer ones are divided */
-#define RC_SMALL_ROWS 13     /* strides in track->small */
+#define RC_SMALL_ROWS 14     /* strides in track->small */
 #define RC_MOST_FORCE 1e30   /* N; nothing that follows from less overflows */
 
 /* Where the dynamic values of a state are; twin of track_fmu/track_state.py. */
