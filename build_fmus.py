@@ -12,7 +12,7 @@ import argparse
 import subprocess
 import sys
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, fields
 from pathlib import Path
 
 import platformdirs
@@ -33,6 +33,8 @@ from fmu_src.python.variables import Value
 PAIRS = {"vehicle": ("track", "vehicle"), "track": ("track_contact", "masses")}
 """Kinds of the FMUs of track and vehicle by the side that has the contacts."""
 
+TRACK_SIZE = ("bays", "elements_per_bay", "wheels", "gauges")
+VEHICLE_SIZE = ("wheels", "bogies")
 TRACKS = {track for track, _ in PAIRS.values()}
 KINDS = ("python", "native")
 
@@ -49,6 +51,8 @@ class Structure:
         Number of wheels.
     gauges : int
         Number of bending moment gauges.
+    bogies : int
+        Number of bogies, which share the wheels.
 
     Raises
     ------
@@ -60,15 +64,28 @@ class Structure:
     elements_per_bay: int = 8
     wheels: int = 2
     gauges: int = 3
+    bogies: int = 1
 
     def __post_init__(self) -> None:
-        for name, least in (("bays", 2), ("elements_per_bay", 1), ("wheels", 1), ("gauges", 0)):
+        for name, least in (
+            ("bays", 2),
+            ("elements_per_bay", 1),
+            ("wheels", 1),
+            ("gauges", 0),
+            ("bogies", 1),
+        ):
             if getattr(self, name) < least:
                 raise ValueError(f"{name} is {getattr(self, name)}; it must be at least {least}")
+        if self.wheels % self.bogies:
+            raise ValueError(
+                f"{self.wheels} wheels cannot be shared out among {self.bogies} bogies; give every "
+                "bogie as many"
+            )
 
     def of(self, kind: str) -> dict[str, int]:
         """The part that matters to the FMU of a kind."""
-        return asdict(self) if kind in TRACKS else {"wheels": self.wheels}
+        names = TRACK_SIZE if kind in TRACKS else VEHICLE_SIZE
+        return {name: getattr(self, name) for name in names}
 
     def file_name(self, kind: str) -> str:
         """File name of the FMU of a kind; the default structure has the plain name."""
@@ -195,7 +212,7 @@ def ensure_native_fmus(
         )
         for model in (
             native_track(**structure.of("track"), fixed=fixed or {}, contact=on_track),
-            make_vehicle(wheels=structure.wheels),
+            make_vehicle(**structure.of("vehicle")),
         )
     )
     return FmuPaths(track=track, vehicle=vehicle, fixed=TRACK_CONSTANTS)

@@ -113,4 +113,5 @@ def _structure(scenario: Scenario) -> Structure:
         elements_per_bay=scenario.track.elements_per_bay,
         wheels=numbers["wheel"],
         gauges=numbers["gauge"],
+        bogies=scenario.vehicle.bogies,
     )

@@ -14,6 +14,7 @@ from .commands.cosim import cosim
 from .commands.endings import say
 from .commands.evaluate import evaluate
 from .commands.figures import figures
+from .commands.irregularity import irregularity
 from .commands.load_displacement import load_displacement
 from .commands.pad import pad
 from .commands.receptance import receptance
@@ -46,6 +47,7 @@ COMMANDS = (
     receptance,
     load_displacement,
     pad,
+    irregularity,
     cosim,
     build,
     replay,
@@ -58,8 +60,7 @@ app.add_typer(tune, name="tune")
 
 def main() -> None:
     """Run the command line; the process ends with 0 done, 1 the run failed, 2 wrong input."""
-    # a run ends as after Ctrl-C, with its folders removed
-    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+    signal.signal(signal.SIGTERM, _end_as_after_ctrl_c)
     try:
         code = app(sys.argv[1:] or ["--help"], standalone_mode=False)
     except USAGE_ERROR as error:
@@ -68,6 +69,13 @@ def main() -> None:
     except typer.Abort:
         code = 1
     sys.exit(code)
+
+
+def _end_as_after_ctrl_c(*_: object) -> None:
+    """End a run with its folders removed, also where the shell has Ctrl-C ignored, as behind &."""
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        raise KeyboardInterrupt
+    signal.raise_signal(signal.SIGINT)
 
 
 def _show_version(wanted: bool) -> None:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from .scenario import Scenario
     from .signals import ContactSide
+    from .surface_files import SurfaceFiles
 
 EXPLICIT_STEP = 1e-4
 """Step with contact on the track side, where the scenario leaves algorithm and step open [s]."""
@@ -59,6 +60,7 @@ def fmu_sources(
     *,
     contact: ContactSide = "vehicle",
     timeout: float | None = None,
+    surfaces: SurfaceFiles | None = None,
 ) -> tuple[FmuSource, FmuSource]:
     """Name the FMUs and their start values.
 
@@ -74,6 +76,8 @@ def fmu_sources(
         Which of the FMUs has the contacts.
     timeout : float, optional
         Longest answer of an FMU to one call [s], each FMU then being in a process of its own.
+    surfaces : SurfaceFiles, optional
+        What rail and wheels are uneven by; the files that the scenario names without.
 
     Returns
     -------
@@ -84,13 +88,13 @@ def fmu_sources(
         FmuSource(
             path=paths.vehicle,
             name="vehicle",
-            start_values=vehicle_values(scenario, law, contact),
+            start_values=vehicle_values(scenario, law, contact, surfaces=surfaces),
             timeout=timeout,
         ),
         FmuSource(
             path=paths.track,
             name="track",
-            start_values=track_values(scenario, law, contact, fixed=paths.fixed),
+            start_values=track_values(scenario, law, contact, fixed=paths.fixed, surfaces=surfaces),
             timeout=timeout,
         ),
     )

@@ -9,7 +9,8 @@ import xarray as xr
 
 from .run_record import ATTEMPT_COLUMNS
 from .scenario_file import to_toml
-from .signals import COMPRESSION, FORWARDS, SIGNALS, labels
+from .signals import COMPRESSION, FORWARDS, labels, signals_of
+from .surface_dataset import surface_dataset
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,15 +19,19 @@ if TYPE_CHECKING:
 
     from .scenario import Scenario
     from .signals import Dimension
+    from .surface_tables import UnevenSurfaces
 
 
 def count(scenario: Scenario) -> dict[Dimension, int]:
-    """Return how many wheels, sleepers and gauges a passage has."""
-    return {
+    """Return how many wheels, sleepers and gauges a passage has, and bogies if they may move."""
+    numbers: dict[Dimension, int] = {
         "wheel": scenario.vehicle.wheels,
         "sleeper": scenario.track.bays - 1,
         "gauge": len(scenario.gauge_positions),
     }
+    if scenario.vehicle.is_suspended:
+        numbers |= {"bogie": scenario.vehicle.bogies, "car": 1}
+    return numbers
 
 
 def assemble(
@@ -36,6 +41,7 @@ def assemble(
     series: Mapping[str, NDArray[np.float64]],
     attempts: Mapping[str, NDArray[np.generic]],
     attributes: Mapping[str, str | int | float],
+    surfaces: UnevenSurfaces | None = None,
 ) -> xr.Dataset:
     """Label the records of a run.
 
@@ -46,17 +52,21 @@ def assemble(
     times : ndarray, shape (n,)
         Accepted times [s].
     series : mapping of str to ndarray
-        Every one of `SIGNALS` by name, of shape (n, wheels), (n, sleepers) or (n, gauges).
+        Every one of `signals_of` the scenario by name, of shape (n, wheels), (n, sleepers) or
+        (n, gauges).
     attempts : mapping of str to ndarray
         The columns `ATTEMPT_COLUMNS` of the step log, each of shape (m,); causes are texts.
     attributes : mapping
         Versions, identities of the FMUs, statistics.
+    surfaces : UnevenSurfaces, optional
+        What the wheels rolled over besides the flat.
 
     Returns
     -------
     xarray.Dataset
-        Dimensions ``time``, ``wheel``, ``sleeper``, ``gauge`` and ``attempt``; units, long name and
-        sign on every variable.
+        Dimensions ``time``, ``wheel``, ``sleeper``, ``gauge`` and ``attempt``, with a suspended
+        vehicle ``bogie`` and ``car``, where surfaces are uneven ``rail_position`` and
+        ``tread_angle``; units, long name and sign on every variable.
     """
     variables = {
         signal.name: (
@@ -64,10 +74,10 @@ def assemble(
             series[signal.name].astype(bool if signal.name == "in_contact" else float),
             signal.attributes,
         )
-        for signal in SIGNALS
+        for signal in signals_of(scenario)
     }
     flat = series["wheel_position"][:, scenario.flat.wheel - 1]
-    return xr.Dataset(
+    result = xr.Dataset(
         variables | attempt_variables(attempts) | _constants(scenario),
         coords=_coordinates(scenario, times, flat - scenario.flat_position),
         attrs={
@@ -77,6 +87,9 @@ def assemble(
             **attributes,
         },
     )
+    if surfaces is None or surfaces.are_smooth:
+        return result
+    return result.merge(surface_dataset(surfaces), join="exact", compat="no_conflicts")
 
 
 def attempt_variables(attempts: Mapping[str, NDArray[np.generic]]) -> dict[str, object]:
@@ -108,7 +121,7 @@ def _coordinates(
         for dim, n in count(scenario).items()
     }
     spacing = scenario.track.sleeper_spacing
-    sleepers = spacing * np.arange(1, scenario.track.bays)
+    sleepers = spacing * (scenario.first_bay + np.arange(1, scenario.track.bays))
     gauges = np.array(scenario.gauge_positions)
     return numbers | {
         "time": ("time", times, labels("s", "time since the start of the run")),

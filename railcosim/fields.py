@@ -138,6 +138,37 @@ def holds_float(section: type[DataclassInstance], key: str) -> bool:
     return float in kind
 
 
+def absolute_file(
+    section: type[DataclassInstance], name: str, value: object, folder: Path
+) -> object:
+    """Make the path of a file absolute, and return any other value as it is.
+
+    Parameters
+    ----------
+    section : type of a dataclass
+        Has the key.
+    name : str
+        Key with the name of its section, for the message.
+    value : object
+        Of the key.
+    folder : Path
+        Where a relative path begins.
+
+    Raises
+    ------
+    InputError
+        For a path that none can be.
+    """
+    if not (isinstance(value, str) and holds_file(section, name.rpartition(".")[2], value)):
+        return value
+    try:
+        return str((folder / Path(value).expanduser()).resolve())
+    except (OSError, ValueError, RuntimeError) as error:
+        raise InputError(
+            f"{name} is {value[:LONGEST_SHOWN]!r}, which is no usable path ({error})"
+        ) from error
+
+
 def check_fields(section: DataclassInstance, name: str) -> None:
     """Check every field of a section against its annotation; whole numbers become floats where due.
 

@@ -26,6 +26,15 @@ LOADS = 10
 
 MOST_LOADS = 10_000
 
+HEAVIEST = 1e7
+"""Bound of the loads: beyond them is only a slip of the keyboard [N]."""
+
+STEEPEST = 1e9
+"""The same of the slope of the secant stiffness [1/m]."""
+
+SOFTEST, STIFFEST = 1.0, 1e15
+"""The same of the unloaded ballast [N/m]."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SecantLaw:
@@ -41,22 +50,22 @@ class SecantLaw:
     Raises
     ------
     InputError
-        For a slope below zero or a stiffness that is not above zero.
+        For a slope below zero, or one or a stiffness that no ballast has.
     """
 
     slope: float = SLOPE
     stiffness: float = 30e6
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.slope) and self.slope >= 0.0):
+        if not 0.0 <= self.slope <= STEEPEST:
             raise InputError(
-                f"the slope of the secant stiffness is {self.slope:g} 1/m but must be at least 0: "
-                "ballast that softens under load has no such law"
+                f"the slope of the secant stiffness is {self.slope:g} 1/m but must be from 0 to "
+                f"{STEEPEST:g} 1/m: ballast that softens under load has no such law"
             )
-        if not (math.isfinite(self.stiffness) and self.stiffness > 0.0):
+        if not SOFTEST <= self.stiffness <= STIFFEST:
             raise InputError(
-                f"the stiffness of the unloaded ballast is {self.stiffness:g} N/m but must be "
-                "above 0"
+                f"the stiffness of the unloaded ballast is {self.stiffness:g} N/m but must be from "
+                f"{SOFTEST:g} to {STIFFEST:g} N/m"
             )
 
     def secant_stiffness(self, force: FloatArray) -> FloatArray:
@@ -113,10 +122,12 @@ def equidistant_loads(largest: float = LARGEST_LOAD, count: int = LOADS) -> Floa
     Raises
     ------
     InputError
-        For fewer loads than the polynomial has coefficients, or a largest load of none.
+        For fewer loads than the polynomial has coefficients, or a largest load outside its bounds.
     """
-    if not (math.isfinite(largest) and largest > 0.0):
-        raise InputError(f"the largest load is {largest:g} N but must be above 0 N")
+    if not 0.0 < largest <= HEAVIEST:
+        raise InputError(
+            f"the largest load is {largest:g} N but must be above 0 N and at most {HEAVIEST:g} N"
+        )
     if not 3 <= count <= MOST_LOADS:
         raise InputError(
             f"{count} loads are asked for but the polynomial has 3 coefficients: choose 3 to "

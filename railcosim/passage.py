@@ -25,8 +25,10 @@ from .errors import InputError, RunError
 from .evidence import keeping_evidence
 from .input_tables import check_profiles
 from .motion import speed_law, travel_time
+from .passing_sleepers import show_sleepers
 from .run_record import attempts, doubts, programs, statistics
-from .signals import SIGNALS
+from .signals import signals_of
+from .surface_tables import compose, written
 from .watched_control import WatchedControl
 
 if TYPE_CHECKING:
@@ -96,6 +98,7 @@ def run_passage(
     scenario = with_steps_for(scenario, contact)
     law = speed_law(scenario.vehicle)
     check_profiles(scenario)
+    surfaces = compose(scenario)
     paths = build_for(scenario, fmus, contact=contact, directory=directory, notify=notify)
     provenance = _provenance(paths)
 
@@ -106,16 +109,26 @@ def run_passage(
             scenario,
             times=recorder.time,
             series=_series(scenario, recorder, contact),
+            surfaces=surfaces,
             attempts=attempts(outcome),
             attributes={"fmus": fmus, "contact": contact, **provenance, **statistics(outcome)},
         )
 
     try:
-        with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
-            sources = fmu_sources(scenario, paths, law, contact=contact, timeout=timeout)
+        with (
+            threadpool_limits(limits=1, user_api="blas"),  # the matrices are too small for more
+            written(scenario, surfaces, replay=replay) as files,
+        ):
+            sources = fmu_sources(
+                scenario, paths, law, contact=contact, timeout=timeout, surfaces=files
+            )
             system = join(sources, scenario.vehicle.wheels, contact)
-            signals = [path for signal in SIGNALS for path in _paths(scenario, signal, contact)]
-            recorder = Recorder(signals + _origins(scenario, contact))
+            signals = [
+                path
+                for signal in signals_of(scenario)
+                for path in _paths(scenario, signal, contact)
+            ]
+            recorder = Recorder(signals + _origins(scenario, contact) + _window(scenario))
             case = _case(scenario, law, system, sources, recorder, contact=contact)
             master = _master(system, case, recorder, report=report)
             with keeping_evidence(case, replay, label):
@@ -178,6 +191,11 @@ def _origins(scenario: Scenario, contact: ContactSide) -> list[str]:
     return [f"track.wheel[{k}].static_displacement" for k in range(1, wheels + 1)]
 
 
+def _window(scenario: Scenario) -> list[str]:
+    """Name what tells which sleepers an endless track holds."""
+    return ["track.window_position"] if scenario.track.endless else []
+
+
 def _series(
     scenario: Scenario, recorder: Recorder, contact: ContactSide
 ) -> dict[str, NDArray[np.float64]]:
@@ -186,10 +204,12 @@ def _series(
         signal.name: np.stack(
             [recorder[path] for path in _paths(scenario, signal, contact)], axis=1
         )
-        for signal in SIGNALS
+        for signal in signals_of(scenario)
     }
     for wheel, path in enumerate(_origins(scenario, contact)):
         series["wheel_displacement"][:, wheel] += recorder[path]
+    for path in _window(scenario):
+        show_sleepers(series, recorder[path], scenario)
     return series
 
 

@@ -7,8 +7,11 @@ from dataclasses import dataclass, field, replace
 
 from .errors import InputError
 from .master_section import Master
-from .sections import DEFAULT_SPEED_KMH, Flat, Run, Track, Vehicle
+from .rail_sections import RailSection
+from .sections import DEFAULT_SPEED_KMH, Flat, Run, Surface, Track, Vehicle
+from .suspension_section import Suspension, check_bodies
 from .variation import Variation
+from .wheel_sections import WheelSection
 
 BEHIND_MIDSPAN = 0.025
 """How far behind the middle of its bay the flat's centre meets the rail by default [m]."""
@@ -22,8 +25,12 @@ class Scenario:
 
     Attributes
     ----------
-    track, variation, vehicle, flat, run, master
+    track, variation, vehicle, suspension, flat, surface, run, master
         The sections of the scenario file.
+    irregularity : tuple
+        What the rail is uneven by; added up.
+    wheel_defect : tuple
+        What wheels are uneven by besides the flat; added up for every wheel.
 
     Raises
     ------
@@ -34,13 +41,19 @@ class Scenario:
     track: Track = field(default_factory=Track)
     variation: Variation = field(default_factory=Variation)
     vehicle: Vehicle = field(default_factory=Vehicle)
+    suspension: Suspension = field(default_factory=Suspension)
     flat: Flat = field(default_factory=Flat)
+    irregularity: tuple[RailSection, ...] = ()
+    wheel_defect: tuple[WheelSection, ...] = ()
+    surface: Surface = field(default_factory=Surface)
     run: Run = field(default_factory=Run)
     master: Master = field(default_factory=Master)
 
     def __post_init__(self) -> None:
         self.variation.check_supports(self.track.bays - 1)
+        check_bodies(self.vehicle, self.suspension)
         self._check_flat()
+        self._check_uneven_surfaces()
         self._check_start_of_track()
         self._check_end_of_track()
 
@@ -55,7 +68,7 @@ class Scenario:
     @property
     def start_position(self) -> float:
         """Position of the leading wheel at t = 0 [m]."""
-        ahead = (self.flat.wheel - 1) * self.vehicle.axle_base
+        ahead = self.vehicle.offsets[self.flat.wheel - 1]
         return self.flat_position - self.run.approach + ahead
 
     @property
@@ -67,7 +80,14 @@ class Scenario:
     def struck_bay(self) -> int:
         """Bay that holds the flat's position, counted from 1."""
         bay = math.floor(self.flat_position / self.track.sleeper_spacing) + 1
+        if self.track.endless:
+            return bay
         return min(bay, self.track.bays)  # not one more where the quotient is rounded up
+
+    @property
+    def first_bay(self) -> int:
+        """Bays before those whose sleepers the result shows: the ones around an endless flat."""
+        return self.struck_bay - (self.track.bays // 2 + 1) if self.track.endless else 0
 
     @property
     def gauge_positions(self) -> tuple[float, float, float]:
@@ -95,7 +115,7 @@ class Scenario:
                 f"flat.wheel is {flat.wheel} but the vehicle has {vehicle.wheels} wheels: choose "
                 "one of them or raise vehicle.wheels"
             )
-        if not 0.0 <= self.flat_position <= track.length:
+        if not (track.endless or 0.0 <= self.flat_position <= track.length):
             raise InputError(
                 f"flat.position is {self.flat_position:g} m but the track reaches from 0 m to "
                 f"{track.length:g} m: put the flat on the track or raise track.bays"
@@ -107,10 +127,29 @@ class Scenario:
                 "length of the track: shorten the flat"
             )
 
+    def _check_uneven_surfaces(self) -> None:
+        """Refuse defects of wheels that there are not, and a rail that is given twice."""
+        for item in self.wheel_defect:
+            if item.wheel > self.vehicle.wheels:
+                raise InputError(
+                    f"wheel_defect.wheel is {item.wheel} but the vehicle has "
+                    f"{self.vehicle.wheels} wheels: choose one of them or raise vehicle.wheels"
+                )
+        if self.irregularity and self.vehicle.rail_irregularity:
+            raise InputError(
+                "vehicle.rail_irregularity and tables [[irregularity]] are both given: name the "
+                "file in a table of the kind csv"
+            )
+
+    @property
+    def is_smooth(self) -> bool:
+        """Whether rail and wheels have nothing but the flat."""
+        return not (self.irregularity or self.wheel_defect or self.vehicle.rail_irregularity)
+
     def _check_start_of_track(self) -> None:
-        """Refuse a run that starts with a wheel before the track."""
+        """Refuse a run that starts with a wheel before 0 m, where the track begins."""
         wheel = self.vehicle.wheels
-        start = self.start_position - (wheel - 1) * self.vehicle.axle_base
+        start = self.start_position - self.vehicle.offsets[-1]
         if start >= 0.0:
             return
         approach = _rounded_down(self.run.approach + start)
@@ -118,7 +157,7 @@ class Scenario:
         position = -_rounded_down(start - self.flat_position)
         remedy += (
             f"move flat.position to at least {position:g} m"
-            if position < self.track.length
+            if self.track.endless or position < self.track.length
             else "raise track.bays"
         )
         raise InputError(
@@ -126,7 +165,9 @@ class Scenario:
         )
 
     def _check_end_of_track(self) -> None:
-        """Refuse a run that leads a wheel beyond the track."""
+        """Refuse a run that leads a wheel beyond the track, which an endless one has no end for."""
+        if self.track.endless:
+            return
         end = self.start_position + self.distance
         beyond = end - self.track.length
         if beyond <= 0.0:
@@ -138,7 +179,7 @@ class Scenario:
             remedy += f"move flat.position to at most {position:g} m "
         raise InputError(
             f"wheel 1 would end at {end:g} m but the track ends at {self.track.length:g} m: "
-            f"{remedy}{'or ' if remedy else ''}raise track.bays"
+            f"{remedy}{'or ' if remedy else ''}raise track.bays, or set track.endless"
         )
 
 

@@ -9,11 +9,15 @@ from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from . import rail_sections, wheel_sections
 from .errors import InputError
-from .fields import holds_file
+from .fields import absolute_file
 from .master_section import Master
+from .presets import PRESETS
 from .scenario import Scenario
-from .sections import Flat, Run, Track, Vehicle
+from .sections import Flat, Run, Surface, Track, Vehicle
+from .suspension_section import Suspension
+from .table_lists import TableList, numbered
 from .toml_text import parse_toml, read_text
 from .variation import Variation
 
@@ -24,22 +28,30 @@ SECTIONS: Mapping[str, type[Any]] = {
     "track": Track,
     "variation": Variation,
     "vehicle": Vehicle,
+    "suspension": Suspension,
     "flat": Flat,
     "run": Run,
     "master": Master,
+    "surface": Surface,
 }
 """Sections of a scenario file and the classes that check them."""
+
+LISTS: Mapping[str, TableList] = {
+    name: TableList(name=name, kinds=kinds)
+    for name, kinds in (
+        (rail_sections.SECTION, rail_sections.KINDS),
+        (wheel_sections.SECTION, wheel_sections.KINDS),
+    )
+}
+"""Tables that a scenario file may repeat, as ``[[irregularity]]``."""
 
 KEYS: Mapping[str, tuple[str, ...]] = {
     name: tuple(item.name for item in fields(kind)) for name, kind in SECTIONS.items()
 }
 """Keys of every section."""
 
-SHOWN = 80
-"""Characters of a wrong value that a message repeats."""
-
-Values: TypeAlias = dict[str, dict[str, Any]]
-"""Keys of a scenario by section."""
+Values: TypeAlias = dict[str, Any]
+"""Of every section a dictionary of its keys, of every list its tables."""
 
 
 def read_scenario(path: Path | None = None, overrides: Iterable[str] = ()) -> Scenario:
@@ -78,12 +90,10 @@ def from_toml(text: str) -> Scenario:
     Raises
     ------
     InputError
-        For an unknown key or a value that does not fit.
-    tomllib.TOMLDecodeError
-        For a text that is no TOML.
+        For a text that is no TOML, an unknown key or a value that does not fit.
     """
     values = no_values()
-    put_all(values, tomllib.loads(text), Path.cwd())
+    put_all(values, parse_toml(text, "scenario"), Path.cwd())
     return build_scenario(values)
 
 
@@ -101,6 +111,10 @@ def to_toml(scenario: Scenario) -> str:
         section = getattr(resolved, name)
         values = {item.name: getattr(section, item.name) for item in fields(kind)}
         blocks.append(section_to_toml(name, values))
+    for name in LISTS:
+        for item in getattr(resolved, name):
+            values = {key.name: getattr(item, key.name) for key in fields(item)}
+            blocks.append(section_to_toml(f"[{name}]", {"kind": item.kind} | values))
     return "\n".join(blocks)
 
 
@@ -116,23 +130,32 @@ def section_to_toml(name: str, values: Mapping[str, bool | float | str | None]) 
 
 def no_values() -> Values:
     """Return the keys of a scenario that gives none."""
-    return {name: {} for name in SECTIONS}
+    return {name: {} for name in SECTIONS} | {name: [] for name in LISTS}
 
 
 def build_scenario(values: Values) -> Scenario:
-    """Check the keys of a scenario as a whole.
+    """Check the keys of a scenario as a whole, above those of its preset if it names one.
 
     Raises
     ------
     InputError
         For a value that does not fit.
     """
-    return Scenario(**{name: kind(**values[name]) for name, kind in SECTIONS.items()})
+    preset = PRESETS.get(str(values["vehicle"].get("preset")))
+    usual: Mapping[str, Mapping[str, Any]] = preset.keys() if preset else {}
+    parts: dict[str, Any] = {
+        name: kind(**{**usual.get(name, {}), **values[name]}) for name, kind in SECTIONS.items()
+    }
+    parts |= {name: tuple(map(kind.make, values[name])) for name, kind in LISTS.items()}
+    return Scenario(**parts)
 
 
 def put_all(values: Values, tables: Mapping[str, Any], folder: Path) -> None:
     """Put every key of a parsed file in its place; see `put`."""
     for section, keys in tables.items():
+        if section in LISTS:
+            values[section] = LISTS[section].read(keys, folder)
+            continue
         _check_section(section, keys)
         for key, value in keys.items():
             put(values, section, key, value, folder)
@@ -157,6 +180,10 @@ def put(values: Values, section: str, key: str, value: object, folder: Path) -> 
     InputError
         For an unknown key or a path that cannot be one.
     """
+    one = numbered(section)
+    if one is not None and one[0] in LISTS:
+        LISTS[one[0]].put(values[one[0]], one[1], key, value, folder)
+        return
     _check_section(section, {})
     if key not in KEYS[section]:
         name = f"{section}.{key}"
@@ -164,14 +191,7 @@ def put(values: Values, section: str, key: str, value: object, folder: Path) -> 
             f"{name} is no key of a scenario: did you mean {_nearest(name)}, or another key of "
             f"[{section}] ({_listed(KEYS[section])})?"
         )
-    if isinstance(value, str) and holds_file(SECTIONS[section], key, value):
-        try:
-            value = str((folder / Path(value).expanduser()).resolve())
-        except (OSError, ValueError, RuntimeError) as error:
-            raise InputError(
-                f"{section}.{key} is {value[:SHOWN]!r}, which is no usable path ({error})"
-            ) from error
-    values[section][key] = value
+    values[section][key] = absolute_file(SECTIONS[section], f"{section}.{key}", value, folder)
 
 
 def _parse_override(text: str) -> tuple[str, str, Any]:
@@ -191,6 +211,10 @@ def _parse_override(text: str) -> tuple[str, str, Any]:
 
 def _check_section(section: str, keys: object) -> None:
     """Refuse an unknown section, and a value where a section is due."""
+    if section in LISTS:
+        raise InputError(
+            f"{section} is a list of tables: name one of them, as in {section}[1].kind=csv"
+        )
     if section not in SECTIONS:
         raise InputError(
             f"{section} is no section of a scenario: did you mean {_nearest(section)}, or another "

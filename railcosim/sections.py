@@ -5,17 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
+from vehicle_fmu.hertz_coefficient import hertz_coefficient
+from vehicle_fmu.suspension_parameters import GRAVITY
+
 from .errors import InputError
 from .fields import Choice, CsvFile, Number, check_fields, is_csv
-
-GRAVITY = 9.81
-"""Gravitational acceleration that turns an axle load into a force [m/s2]."""
+from .presets import PRESETS
 
 MOST_DEGREES_OF_FREEDOM = 10_000
 """Size of track whose modes fit in a few gigabytes of memory."""
 
 DEFAULT_SPEED_KMH = 40.0
 """Speed of the demonstration example [km/h]."""
+
+RAIL_RADIUS = 0.3
+"""Transverse radius of the railhead of the demonstration example [m]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,9 +37,20 @@ class Track:
     pad_stiffness, pad_damping : float
         Rail pad [N/m], [N s/m].
     sleeper_mass, sleeper_spacing : float
-        Half sleeper [kg] and spacing [m].
+        Half sleeper that is rigid [kg] and spacing [m].
     ballast_stiffness, ballast_damping : float
         Unloaded ballast and subgrade per rail seat [N/m], [N s/m].
+    sleeper : str
+        ``rigid``, or ``beam``: a Rayleigh-Timoshenko beam on ballast spread evenly along it, with
+        the properties that follow.
+    sleeper_half_length, sleeper_rail_seat : float
+        Distance of a sleeper's end and of its rail seat from its centre [m].
+    sleeper_bending_stiffness, sleeper_shear_stiffness : float
+        Sleeper EI [N m2] and kGA [N].
+    sleeper_mass_per_length, sleeper_rotary_inertia_per_length : float
+        Sleeper m [kg/m] and m r2 [kg m].
+    sleeper_elements : int
+        Beam elements in half a sleeper.
     ballast : str
         ``state_dependent``: Eq. (27) and (30) on top of the linear ballast; ``linear``: without;
         ``hyperbolic``: Eq. (26); or a CSV file with displacement [m], load [N].
@@ -59,6 +74,8 @@ class Track:
         Whether the static part of the other modes is kept, Eq. (13).
     supports_per_wheel : int
         Number of nearest supports with state-dependent forces.
+    endless : bool
+        Whether the track goes on without end, its bays being those around the wheels at any time.
     """
 
     bays: Annotated[int, Number(unit="bays", at_least=2, at_most=10_000)] = 50
@@ -73,6 +90,14 @@ class Track:
     sleeper_spacing: Annotated[float, Number(unit="m", above=0.0)] = 0.65
     ballast_stiffness: Annotated[float, Number(unit="N/m", above=0.0)] = 30e6
     ballast_damping: Annotated[float, Number(unit="N s/m", at_least=0.0)] = 31e3
+    sleeper: Annotated[str, Choice(("rigid", "beam"))] = "rigid"
+    sleeper_half_length: Annotated[float, Number(unit="m", above=0.0)] = 1.25
+    sleeper_rail_seat: Annotated[float, Number(unit="m", above=0.0)] = 0.75
+    sleeper_bending_stiffness: Annotated[float, Number(unit="N m2", above=0.0)] = 5.5e6
+    sleeper_shear_stiffness: Annotated[float, Number(unit="N", above=0.0)] = 565e6
+    sleeper_mass_per_length: Annotated[float, Number(unit="kg/m", above=0.0)] = 100.0
+    sleeper_rotary_inertia_per_length: Annotated[float, Number(unit="kg m", at_least=0.0)] = 0.33
+    sleeper_elements: Annotated[int, Number(unit="elements", at_least=2, at_most=100)] = 8
     ballast: Annotated[str, Choice(("state_dependent", "linear", "hyperbolic"), or_csv=True)] = (
         "state_dependent"
     )
@@ -88,9 +113,21 @@ class Track:
     mode_pairs: Annotated[int | None, Number(unit="pairs", at_least=1)] = None
     residual_flexibility: bool = True
     supports_per_wheel: Annotated[int, Number(unit="supports", at_least=1)] = 6
+    endless: bool = False
 
     def __post_init__(self) -> None:
         check_fields(self, "track")
+        if self.sleeper_rail_seat >= self.sleeper_half_length:
+            raise InputError(
+                f"track.sleeper_rail_seat is {self.sleeper_rail_seat:g} m but must be less than "
+                f"track.sleeper_half_length, {self.sleeper_half_length:g} m, where the sleeper "
+                "ends: move the rail seat inwards"
+            )
+        if self.endless and self.sleeper != "rigid":
+            raise InputError(
+                "track.endless is true but track.sleeper is 'beam': an endless track has rigid "
+                "sleepers"
+            )
         if self.degrees_of_freedom > MOST_DEGREES_OF_FREEDOM:
             raise InputError(
                 f"track.bays = {self.bays} with track.elements_per_bay = {self.elements_per_bay} "
@@ -111,37 +148,54 @@ class Track:
 
     @property
     def retained_pairs(self) -> int:
-        """Retained pairs of complex modes; without a number three per bay, up to 2.7 kHz."""
-        return self.mode_pairs or min(3 * self.bays, self.degrees_of_freedom)
+        """Retained pairs of complex modes, up to 2.7 kHz without a number: three per bay.
+
+        Seven per bay where sleepers bend, each of which has four modes of its own down there.
+        """
+        per_bay = 3 if self.sleeper == "rigid" else 7
+        return self.mode_pairs or min(per_bay * self.bays, self.degrees_of_freedom)
 
     @property
     def degrees_of_freedom(self) -> int:
-        """Two per inner rail node and one per sleeper."""
-        return 2 * (self.bays * self.elements_per_bay - 1) + self.bays - 1
+        """Two per inner rail node; one per rigid sleeper, more per sleeper that bends."""
+        per_sleeper = 1 if self.sleeper == "rigid" else 2 * self.sleeper_elements + 1
+        return 2 * (self.bays * self.elements_per_bay - 1) + per_sleeper * (self.bays - 1)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Vehicle:
-    """Keys of ``[vehicle]``: moving masses, each half a wheelset under half an axle load.
+    """Keys of ``[vehicle]``: wheels, each half a wheelset under half an axle load.
 
     Attributes
     ----------
+    model : str
+        ``masses``: nothing but their load is above the wheels; ``suspended``: bogie frames and a
+        car body, as ``[suspension]`` has them.
+    preset : str, optional
+        A vehicle of the literature, one of `presets.PRESETS`, in a scenario file or override: the
+        keys that these do not give take its values.
     speed_kmh : float, optional
         Constant speed [km/h]; 40 where neither a speed nor a table is given.
     speed_table : str
         CSV file with the columns time [s] and speed [m/s], instead of ``speed_kmh``.
-    wheels : int
-        Number of wheels, ``axle_base`` apart.
+    wheels, bogies : int
+        Number of wheels, and of bogies with equal shares of them.
     wheel_mass : float
         Half of a wheelset's mass [kg].
     axle_load_t : float
         Axle load [t]; half of its weight is the whole static force of a wheel on the rail.
-    axle_base : float
-        Distance of neighbouring wheels [m].
+    axle_base, bogie_distance : float
+        Distance of neighbouring wheels of a bogie, and of the centres of neighbouring bogies [m].
     wheel_radius : float
         Wheel radius [m].
     hertz_coefficient : float
-        Contact force per compression to the power 3/2 [N/m1.5].
+        Contact force per compression to the power 3/2 [N/m1.5]; that of the radii where
+        ``rail_radius`` is given.
+    rail_radius : float, optional
+        Transverse radius of the railhead [m]; with it the Hertz coefficient follows from both
+        radii and the material. The contact patch is that of 0.3 m without.
+    youngs_modulus, poissons_ratio : float
+        Material of wheel and rail [Pa], [1].
     rail_irregularity : str
         CSV file with the columns position [m] and drop [m] of the railhead, downwards positive;
         empty for a smooth rail.
@@ -149,21 +203,70 @@ class Vehicle:
 
     speed_kmh: Annotated[float | None, Number(unit="km/h", at_least=0.1, at_most=1000.0)] = None
     speed_table: Annotated[str, CsvFile()] = ""
+    model: Annotated[str, Choice(("masses", "suspended"))] = "masses"
+    preset: Annotated[str | None, Choice(tuple(PRESETS))] = None
     wheels: Annotated[int, Number(unit="wheels", at_least=1, at_most=100)] = 2
+    bogies: Annotated[int, Number(unit="bogies", at_least=1, at_most=100)] = 1
     wheel_mass: Annotated[float, Number(unit="kg", above=0.0)] = 592.5
     axle_load_t: Annotated[float, Number(unit="t", at_least=0.1, at_most=100.0)] = 24.0
     axle_base: Annotated[float, Number(unit="m", above=0.0)] = 1.8
+    bogie_distance: Annotated[float, Number(unit="m", above=0.0)] = 19.0
     wheel_radius: Annotated[float, Number(unit="m", above=0.0)] = 0.45
     hertz_coefficient: Annotated[float, Number(unit="N/m1.5", above=0.0)] = 9.17e10
+    rail_radius: Annotated[float | None, Number(unit="m", at_least=0.01, at_most=100.0)] = None
+    youngs_modulus: Annotated[float, Number(unit="Pa", above=0.0)] = 206e9
+    poissons_ratio: Annotated[float, Number(at_least=0.0, at_most=0.5)] = 0.3
     rail_irregularity: Annotated[str, CsvFile()] = ""
 
     def __post_init__(self) -> None:
         check_fields(self, "vehicle")
+        if self.rail_radius is not None:
+            self._take_coefficient(self.rail_radius)
         if self.speed_table and self.speed_kmh is not None:
             raise InputError(
                 f"vehicle.speed_kmh = {self.speed_kmh:g} and vehicle.speed_table = "
                 f"{self.speed_table!r} are both given: leave one of them out"
             )
+        if self.wheels % self.bogies:
+            raise InputError(
+                f"vehicle.wheels is {self.wheels}, which {self.bogies} bogies cannot share: make "
+                "it a multiple of vehicle.bogies"
+            )
+
+    @property
+    def is_suspended(self) -> bool:
+        """Whether there are bodies above the wheels."""
+        return self.model == "suspended"
+
+    @property
+    def offsets(self) -> tuple[float, ...]:
+        """How far each wheel runs behind the first [m]."""
+        share = self.wheels // self.bogies
+        return tuple(
+            j * self.bogie_distance + i * self.axle_base
+            for j in range(self.bogies)
+            for i in range(share)
+        )
+
+    def _take_coefficient(self, rail_radius: float) -> None:
+        """Work the Hertz coefficient out, unless another one is given."""
+        try:
+            coefficient = hertz_coefficient(
+                wheel_radius=self.wheel_radius,
+                rail_radius=rail_radius,
+                youngs_modulus=self.youngs_modulus,
+                poissons_ratio=self.poissons_ratio,
+            )
+        except ValueError as error:
+            raise InputError(f"vehicle.rail_radius: {error}") from error
+        default = type(self)().hertz_coefficient
+        if self.hertz_coefficient not in {default, coefficient}:
+            raise InputError(
+                f"vehicle.hertz_coefficient is {self.hertz_coefficient:g} N/m1.5 but that of "
+                f"vehicle.rail_radius = {rail_radius:g} is {coefficient:g} N/m1.5: leave one of "
+                "them out"
+            )
+        object.__setattr__(self, "hertz_coefficient", coefficient)
 
     @property
     def static_wheel_load(self) -> float:
@@ -233,3 +336,24 @@ class Run:
 
     def __post_init__(self) -> None:
         check_fields(self, "run")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Surface:
+    """Keys of ``[surface]``: how the tables of irregularities and wheel defects are used.
+
+    Attributes
+    ----------
+    ramp : float
+        Distance over which the irregularities of the rail set in, from the start of the leading
+        wheel [m].
+    contact_filter : bool
+        Whether waves are weakened that are not much longer than the contact patch; flats and
+        spalls are left as they are.
+    """
+
+    ramp: Annotated[float, Number(unit="m", at_least=0.0)] = 1.0
+    contact_filter: bool = False
+
+    def __post_init__(self) -> None:
+        check_fields(self, "surface")

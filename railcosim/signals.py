@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
-Dimension: TypeAlias = Literal["wheel", "sleeper", "gauge"]
+if TYPE_CHECKING:
+    from .scenario import Scenario
+
+Dimension: TypeAlias = Literal["wheel", "sleeper", "gauge", "bogie", "car"]
 
 ContactSide: TypeAlias = Literal["vehicle", "track"]
 """Which of the two FMUs has the contacts."""
@@ -13,6 +16,10 @@ ContactSide: TypeAlias = Literal["vehicle", "track"]
 COMPRESSION = "positive in compression"
 DOWN = "positive downwards"
 FORWARDS = "positive in the direction of travel"
+BODIES: tuple[tuple[Literal["bogie", "car"], str], ...] = (
+    ("bogie", "bogie frame"),
+    ("car", "car body"),
+)
 SAGGING = "positive sagging: tension in the rail foot"
 
 
@@ -33,7 +40,7 @@ def labels(units: str, long_name: str, sign: str = "none") -> dict[str, str]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Signal:
-    """One output of an FMU over all wheels, sleepers or gauges.
+    """One output of an FMU over all wheels, sleepers, gauges or bogies.
 
     Attributes
     ----------
@@ -42,8 +49,8 @@ class Signal:
     source : str
         ``component.variable`` in the co-simulation, with ``[k]`` where the index belongs; the
         component ``contact`` is the one that has the contacts.
-    dim : {"wheel", "sleeper", "gauge"}
-        What k counts.
+    dim : {"wheel", "sleeper", "gauge", "bogie", "car"}
+        What k counts; there is one car body.
     units, long_name, sign : str
         Attributes in the result; units as the CF conventions write them.
     """
@@ -56,7 +63,7 @@ class Signal:
     sign: str
 
     def path(self, k: int, contact: ContactSide = "vehicle") -> str:
-        """Name the output of the k-th wheel, sleeper or gauge, counted from 1."""
+        """Name the output of the k-th wheel, sleeper, gauge or bogie, counted from 1."""
         component, _, variable = self.source.replace("[k]", f"[{k}]").partition(".")
         return f"{contact if component == 'contact' else component}.{variable}"
 
@@ -172,4 +179,70 @@ SIGNALS = (
         sign=SAGGING,
     ),
 )
-"""Every time series that a result holds."""
+"""Every time series that any result holds."""
+
+REST = "positive downwards, from static equilibrium"
+
+BODY_SIGNALS = (
+    *(
+        Signal(
+            name=f"{body}_{name}",
+            source=f"vehicle.{body}{'[k]' if body == 'bogie' else ''}.{name}",
+            dim=body,
+            units=units,
+            long_name=f"{name} of the {what}",
+            sign=sign,
+        )
+        for body, what in BODIES
+        for name, units, sign in (
+            ("displacement", "m", REST),
+            ("pitch", "rad", "positive nose down, from static equilibrium"),
+            ("acceleration", "m s-2", DOWN),
+        )
+    ),
+    Signal(
+        name="primary_force",
+        source="vehicle.primary[k].force",
+        dim="wheel",
+        units="N",
+        long_name="force in the primary suspension of the wheel",
+        sign=COMPRESSION,
+    ),
+    Signal(
+        name="secondary_force",
+        source="vehicle.secondary[k].force",
+        dim="bogie",
+        units="N",
+        long_name="force in the secondary suspension of the bogie",
+        sign=COMPRESSION,
+    ),
+)
+"""The time series that the result of a suspended vehicle holds besides."""
+
+
+SLEEPER_SIGNALS = (
+    Signal(
+        name="sleeper_bending_moment",
+        source="track.sleeper[k].bending_moment",
+        dim="sleeper",
+        units="N m",
+        long_name="bending moment of the sleeper at its rail seat",
+        sign="positive sagging: tension in the sleeper's foot",
+    ),
+    Signal(
+        name="sleeper_centre_bending_moment",
+        source="track.sleeper[k].centre_bending_moment",
+        dim="sleeper",
+        units="N m",
+        long_name="bending moment of the sleeper at its centre",
+        sign="positive sagging: tension in the sleeper's foot",
+    ),
+)
+"""What a result holds besides where sleepers are beams."""
+
+
+def signals_of(scenario: Scenario) -> tuple[Signal, ...]:
+    """Return the time series that the result of a scenario holds."""
+    bodies = BODY_SIGNALS if scenario.vehicle.is_suspended else ()
+    sleepers = () if scenario.track.sleeper == "rigid" else SLEEPER_SIGNALS
+    return (*SIGNALS, *bodies, *sleepers)

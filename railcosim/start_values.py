@@ -10,6 +10,8 @@ from fmu_src.native.models import TRACK_CONSTANTS
 from .motion import initial_speed
 from .sections import Track
 from .support_values import support_values
+from .surface_files import files_of
+from .suspension_section import Suspension
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 
     from .scenario import Scenario
     from .signals import ContactSide
+    from .surface_files import SurfaceFiles
 
 Value: TypeAlias = float | int | bool | str
 """What a parameter of an FMU may be."""
@@ -46,10 +49,12 @@ def track_values(
     contact: ContactSide = "vehicle",
     *,
     fixed: Collection[str] = (),
+    surfaces: SurfaceFiles | None = None,
 ) -> dict[str, Value]:
     """Return the parameters of the track FMU, with those of the contacts if it has them.
 
-    Those that are `fixed` in the FMU are left out.
+    Those that are `fixed` in the FMU are left out. The files of uneven surfaces are those that the
+    scenario names, or where it has to be composed, `surfaces`.
     """
     own = {name: value for name, value in _of_track(scenario).items() if name not in fixed}
     gauges = {
@@ -59,16 +64,23 @@ def track_values(
     values = {**own, **gauges, **support_values(scenario), "initial_speed": initial_speed(law)}
     if contact == "vehicle":
         return values
-    values |= _contact_values(scenario)
+    values |= _contact_values(scenario, surfaces or files_of(scenario))
     if scenario.master.algorithm == "gauss_seidel":
         values["linear_inputs"] = True  # the vehicle has stepped when the track does
     return values
 
 
 def vehicle_values(
-    scenario: Scenario, law: SpeedLaw, contact: ContactSide = "vehicle"
+    scenario: Scenario,
+    law: SpeedLaw,
+    contact: ContactSide = "vehicle",
+    *,
+    surfaces: SurfaceFiles | None = None,
 ) -> dict[str, Value]:
-    """Return the parameters of the vehicle FMU, with those of the contacts if it has them."""
+    """Return the parameters of the vehicle FMU, with those of the contacts if it has them.
+
+    For `surfaces` see `track_values`.
+    """
     vehicle = scenario.vehicle
     motion: dict[str, Value] = {
         "speed": initial_speed(law),
@@ -77,20 +89,39 @@ def vehicle_values(
         "wheel_mass": vehicle.wheel_mass,
         "static_wheel_load": vehicle.static_wheel_load,
     }
-    if contact == "vehicle":
-        return {**motion, "axle_base": vehicle.axle_base, **_contact_values(scenario)}
-    offsets = {f"wheel[{k + 1}].offset": k * vehicle.axle_base for k in range(1, vehicle.wheels)}
-    return {**motion, **offsets}
+    offsets = {
+        f"wheel[{k}].offset": offset for k, offset in enumerate(vehicle.offsets[1:], start=2)
+    }
+    values = {**motion, **offsets, **_suspension_values(scenario)}
+    return (
+        values
+        if contact == "track"
+        else values | _contact_values(scenario, surfaces or files_of(scenario))
+    )
 
 
-def _contact_values(scenario: Scenario) -> dict[str, Value]:
+def _suspension_values(scenario: Scenario) -> dict[str, Value]:
+    """Return the parameters of the bodies above the wheels; all bogies are alike."""
+    values: dict[str, Value] = {"model": scenario.vehicle.model}
+    for item in fields(Suspension):
+        value = getattr(scenario.suspension, item.name)
+        part, _, name = item.name.partition("_")
+        if part == "bogie":
+            bogies = range(1, scenario.vehicle.bogies + 1)
+            values |= {f"bogie[{j}].{name}": value for j in bogies}
+        else:
+            values[f"{part}.{name}"] = value
+    return values
+
+
+def _contact_values(scenario: Scenario, surfaces: SurfaceFiles) -> dict[str, Value]:
     """Return the parameters of contacts and surfaces, on either side."""
     vehicle, flat = scenario.vehicle, scenario.flat
     return {
         "static_wheel_load": vehicle.static_wheel_load,
         "wheel_radius": vehicle.wheel_radius,
         "hertz_coefficient": vehicle.hertz_coefficient,
-        "rail_irregularity": vehicle.rail_irregularity,
+        "rail_irregularity": surfaces.rail,
         "flat.shape": flat.shape,
         "flat.length": flat.length,
         "flat.depth": flat.depth,
@@ -98,4 +129,5 @@ def _contact_values(scenario: Scenario) -> dict[str, Value]:
         "flat.position": scenario.flat_position,
         "flat.periodic": flat.periodic,
         "flat.rolled": flat.rolled,
+        **{f"wheel[{k}].out_of_roundness": path for k, path in enumerate(surfaces.treads, start=1)},
     }

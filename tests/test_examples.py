@@ -74,6 +74,18 @@ def test_varying_track():
     assert summarise(passage).peak_contact_force == pytest.approx(299.09e3, rel=1e-3)
 
 
+@pytest.mark.parametrize(
+    ("name", "peak", "smallest"),
+    [("uneven_rail", 173.35e3, 64.23e3), ("worn_wheels", 272.26e3, 27.03e3)],
+)
+def test_uneven_surfaces(tmp_path, name, peak, smallest):
+    """Forces of both wheels, by this implementation; tests/passage holds its parts to others."""
+    scenario = read_scenario(EXAMPLES / f"{name}.toml")
+    force = run_passage(scenario, fmus="native", directory=tmp_path)["contact_force"]
+    assert force.max() == pytest.approx(peak, rel=2e-3)
+    assert force.min() == pytest.approx(smallest, abs=500.0)
+
+
 def test_passage_as_a_system(tmp_path, baseline):
     """Native FMUs, whose results are those of the Python ones, up to 50 ms after the strike."""
     fmus = build_for(Scenario(), "native", directory=tmp_path)
@@ -84,3 +96,23 @@ def test_passage_as_a_system(tmp_path, baseline):
         time=np.linspace(0.0, SHORT, 1001)
     )
     baseline.check(even.drop_attrs(deep=False), TOLERANCES, name="passage_as_a_system")
+
+
+def test_coach():
+    """A flat under a coach: 94.71 kN at 25 us with contact on the vehicle, and on the track."""
+    passage = run_passage(read_scenario(EXAMPLES / "coach.toml"), fmus="native")
+    assert float(passage["contact_force"].max()) == pytest.approx(94.71e3, rel=1e-3)
+    assert float(passage["bogie_acceleration"].max()) == pytest.approx(0.380, rel=5e-3)
+    # the strike of 18 kN for some milliseconds, on 44 t: the car body does not feel it
+    assert float(abs(passage["car_acceleration"]).max()) < 0.005
+
+
+def test_sleepers(tmp_path):
+    """Within a fifth of a percent of the whole track without modes (`railcosim.monolithic`)."""
+    scenario = read_scenario(EXAMPLES / "sleepers.toml")
+    result = run_passage(scenario, fmus="native", directory=tmp_path)
+    summary = summarise(result)
+    assert summary.peak_contact_force == pytest.approx(229.38e3, rel=2e-3)
+    assert summary.max_sleeper_displacement == pytest.approx(0.5401e-3, rel=2e-3)
+    assert float(result["sleeper_bending_moment"].max()) == pytest.approx(12.866e3, rel=2e-3)
+    assert float(result["sleeper_centre_bending_moment"].min()) == pytest.approx(-5.184e3, rel=2e-3)

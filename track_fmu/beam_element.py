@@ -19,7 +19,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BeamSection:
-    """Properties of the rail per unit length.
+    """Properties of a rail or sleeper per unit length.
 
     Parameters
     ----------

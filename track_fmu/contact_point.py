@@ -34,21 +34,39 @@ class RailPoint:
         return slice(2 * self.element, 2 * self.element + 4)
 
 
-def locate(parameters: TrackParameters, position: float) -> RailPoint:
-    """Find the point of the rail at a track position [m].
+def locate(
+    parameters: TrackParameters, position: float, *, window: float | None = None
+) -> RailPoint:
+    """Find the point of the rail at a track position.
+
+    Parameters
+    ----------
+    parameters : TrackParameters
+        The track.
+    position : float
+        Along the rail [m].
+    window : float or None
+        Where the window of an endless track begins [m]; None for a track that begins at 0 m.
 
     Raises
     ------
     ValueError
         If the position is not a number or not on the track.
     """
-    if not (math.isfinite(position) and 0.0 <= position <= parameters.length):
+    inside = position if window is None else position - window
+    if not (math.isfinite(inside) and 0.0 <= inside <= parameters.length):
+        if window is not None:
+            raise ValueError(
+                f"track: position {position!r} m lies outside the window of {window:g} to "
+                f"{window + parameters.length:g} m that moves with the wheels; use shorter steps "
+                "or more bays"
+            )
         raise ValueError(
             f"track: position {position!r} m lies outside the track of 0 to "
             f"{parameters.length:g} m; start later, stop earlier or use more bays"
         )
     length = parameters.element_length
-    scaled = position / length
+    scaled = inside / length
     element = min(int(scaled), parameters.elements - 1)
     xi = scaled - element
     phi = shear_parameter(parameters.section, length)

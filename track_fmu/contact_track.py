@@ -8,7 +8,6 @@ import numpy as np
 
 from .beam_element import FloatArray
 from .contact_law import ContactLaw, Surface
-from .contact_point import locate
 from .contact_solution import solve_contact
 from .contact_state import ContactState
 from .continuation import begin, continued, remember
@@ -180,8 +179,7 @@ class ContactTrack:
         """
         parts = count_parts(step_size, LONGEST_PART)
         _check_displacements(displacements)
-        for position in positions:
-            locate(self._track.track.parameters, float(position))
+        self._track.window.check(positions)
         own, before = self._own, self.state
         given = np.concatenate((positions, displacements))
         force = self.contact_force
@@ -200,8 +198,9 @@ class ContactTrack:
                 else:
                     wheels = continued(own.history, own.ages, share * step_size)
                 ahead, down = np.split(wheels, 2)
-                # what is continued may lead a little beyond the track at its ends
-                ahead = np.clip(ahead, 0.0, self._track.track.parameters.length)
+                if not self._track.window.endless:
+                    # what is continued may lead a little beyond the track at its ends
+                    ahead = np.clip(ahead, 0.0, self._track.track.parameters.length)
                 self._advance(step_size / parts, ahead, down)
         except (ValueError, RuntimeError):
             self.state = before
@@ -220,6 +219,7 @@ class ContactTrack:
     def _advance(self, step_size: float, positions: FloatArray, displacements: FloatArray) -> None:
         """Advance by one part, to given positions and displacements at its end."""
         own = self._own
+        self._track.follow_wheels()
         operator = self._track.step_operator(step_size, positions, linear=True)
         solution = solve_contact(
             operator,

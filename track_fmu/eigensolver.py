@@ -22,7 +22,7 @@ import scipy.linalg as la
 from numpy.typing import NDArray
 from scipy.linalg.lapack import zgbsv
 
-from .assembly import HALF_BANDWIDTH, to_banded
+from .assembly import half_bandwidth, to_banded
 
 if TYPE_CHECKING:
     import scipy.sparse as sp
@@ -76,9 +76,9 @@ def solve_damped(
     Parameters
     ----------
     mass, damping, stiffness : (N, N) sparse array
-        Symmetric, half-bandwidth at most ``HALF_BANDWIDTH``; M and K positive definite.
+        Symmetric and banded; M and K positive definite.
     dampers : (N, d) sparse array
-        Directions in which the damping acts, ``C = dampers diag(c) dampers^T``.
+        Directions that span the damping forces, at least those of the wanted modes.
     mode_pairs : int
         Complex-conjugate pairs to find; two overdamped real eigenvalues count as one pair.
 
@@ -183,7 +183,8 @@ class _BandedPolynomial:
 
     def __init__(self, mass: sp.csc_array, damping: sp.csc_array, stiffness: sp.csc_array) -> None:
         self.matrices = (mass, damping, stiffness)
-        self.bands = tuple(_general_band(matrix) for matrix in self.matrices)
+        self.width = half_bandwidth(*self.matrices)
+        self.bands = tuple(_general_band(matrix, self.width) for matrix in self.matrices)
 
     def refine(self, eigenvalue: complex, mode: ComplexArray) -> tuple[complex, ComplexArray]:
         """Inverse iteration with the Rayleigh functional until the eigenvalue stands still."""
@@ -194,7 +195,7 @@ class _BandedPolynomial:
         for _ in range(MAX_SWEEPS):
             band = self.bands[2] + eigenvalue * (self.bands[1] + eigenvalue * self.bands[0])
             right = 2.0 * eigenvalue * (mass @ mode) + damping @ mode
-            _, _, mode, info = zgbsv(HALF_BANDWIDTH, HALF_BANDWIDTH, band, right)
+            _, _, mode, info = zgbsv(self.width, self.width, band, right)
             largest = mode[np.argmax(np.abs(mode))]
             if info < 0 or not np.isfinite(largest) or largest == 0.0:
                 raise EigenvalueError(
@@ -230,14 +231,13 @@ class _BandedPolynomial:
         return complex(min((large / a, c / large), key=lambda candidate: abs(candidate - near)))
 
 
-def _general_band(matrix: sp.csc_array) -> ComplexArray:
-    """Storage of a symmetric band matrix for LAPACK's gbsv, shape (3 * HALF_BANDWIDTH + 1, N)."""
+def _general_band(matrix: sp.csc_array, width: int) -> ComplexArray:
+    """Storage of a symmetric band matrix for LAPACK's gbsv, shape (3 * width + 1, N)."""
     size = matrix.shape[0]
-    band = np.zeros((3 * HALF_BANDWIDTH + 1, size), dtype=np.complex128, order="F")
-    reach = min(HALF_BANDWIDTH, size - 1)
-    for k in range(-reach, reach + 1):
+    band = np.zeros((3 * width + 1, size), dtype=np.complex128, order="F")
+    for k in range(-width, width + 1):
         diagonal = matrix.diagonal(k)
-        band[2 * HALF_BANDWIDTH - k, max(k, 0) : max(k, 0) + len(diagonal)] = diagonal
+        band[2 * width - k, max(k, 0) : max(k, 0) + len(diagonal)] = diagonal
     return band
 
 

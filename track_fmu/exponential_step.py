@@ -7,12 +7,14 @@ whatever the step size ``h``.
 from __future__ import annotations
 
 import math
+from collections import OrderedDict
 from dataclasses import dataclass
 
 import numpy as np
 
 from .eigensolver import ComplexArray
 
+REMEMBERED_STEP_SIZES = 64
 SERIES_LIMIT = 0.2  # below it the closed forms lose digits to cancellation
 SERIES_TERMS = 12  # 0.2^12 / 14! is below rounding
 
@@ -43,6 +45,31 @@ def exponential_step(eigenvalues: ComplexArray, step_size: float) -> Exponential
     start: ComplexArray = np.multiply(step_size, phi1 - phi2, dtype=np.complex128)
     end: ComplexArray = np.multiply(step_size, phi2, dtype=np.complex128)
     return ExponentialStep(decay, start, end)
+
+
+class ExponentialSteps:
+    """Coefficients by step size; those used last are remembered.
+
+    Parameters
+    ----------
+    eigenvalues : (S,) complex array
+        ``lambda`` [1/s].
+    """
+
+    def __init__(self, eigenvalues: ComplexArray) -> None:
+        self._eigenvalues = eigenvalues
+        self._known: OrderedDict[float, ExponentialStep] = OrderedDict()
+
+    def of(self, step_size: float) -> ExponentialStep:
+        """Coefficients of a step size [s]."""
+        known = self._known
+        if step_size in known:
+            known.move_to_end(step_size)
+        else:
+            known[step_size] = exponential_step(self._eigenvalues, step_size)
+            if len(known) > REMEMBERED_STEP_SIZES:
+                known.popitem(last=False)
+        return known[step_size]
 
 
 def _series(z: ComplexArray, order: int) -> ComplexArray:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from .assembly import TrackMatrices
 from .beam_element import FloatArray
@@ -67,7 +66,7 @@ def compute_basis(matrices: TrackMatrices, *, mode_pairs: int) -> ModalBasis:
         matrices.mass,
         matrices.damping,
         matrices.stiffness,
-        sp.csc_array(sp.hstack([matrices.pad_incidence, matrices.ballast_incidence])),
+        matrices.dampers,
         mode_pairs=mode_pairs,
     )
     return ModalBasis(eigenvalues=pairs.eigenvalues, modes=pairs.modes)

@@ -24,8 +24,10 @@ class Observation:
         Modes and residual flexibility.
     state : TrackState
         Must not change while the observation is in use.
-    wheels, gauges : sequence of RailPoint
-        Where the wheels stand and where bending moments are wanted.
+    wheels : sequence of RailPoint
+        Where the wheels stand.
+    gauges : sequence of RailPoint or None
+        Where bending moments are wanted; None is beyond the window of an endless track.
     """
 
     def __init__(
@@ -34,7 +36,7 @@ class Observation:
         state: TrackState,
         *,
         wheels: Sequence[RailPoint],
-        gauges: Sequence[RailPoint],
+        gauges: Sequence[RailPoint | None],
     ) -> None:
         self._track, self._state = track, state
         self._wheels, self._gauges = wheels, gauges
@@ -48,7 +50,7 @@ class Observation:
         velocity = np.empty(len(self._wheels))
         for i, (wheel, speed) in enumerate(zip(self._wheels, self._state.speed, strict=True)):
             shape, flexibility = self._track.shape[wheel.rows], self._track.flexibility[wheel.rows]
-            displacement = np.real(shape @ self._modal) + flexibility @ self._forces
+            displacement = np.real(shape @ self._modal) + flexibility @ self.forces
             rate = np.real(shape @ self._modal_rate) + flexibility @ self._force_rates
             velocity[i] = wheel.shape @ rate + speed * (wheel.slope @ displacement)
         return velocity
@@ -63,16 +65,40 @@ class Observation:
 
     @cached_property
     def sleeper_displacement(self) -> FloatArray:
-        """Displacement of every sleeper [m], shape (supports,)."""
+        """Displacement of every sleeper at its rail seat [m], shape (supports,)."""
+        if self._track.parameters.sleeper == "rigid":
+            return self.ballast_deformation
+        return self._displacement(self._track.seat_rows) - self._displacement(self._track.pad_rows)
+
+    @cached_property
+    def ballast_deformation(self) -> FloatArray:
+        """Deformation of the ballast under every sleeper [m], shape (supports,).
+
+        Under a sleeper that bends, the weighted mean that drives state-dependent ballast.
+        """
         return self._displacement(self._track.ballast_rows)
+
+    @cached_property
+    def sleeper_moment(self) -> FloatArray:
+        """Bending moment of every sleeper at its rail seat [N m], sagging positive, (supports,).
+
+        Zero for rigid sleepers, of which it is not known.
+        """
+        return self._moment_of_sleepers(0)
+
+    @cached_property
+    def sleeper_centre_moment(self) -> FloatArray:
+        """Bending moment of every sleeper at its centre, as `sleeper_moment`."""
+        return self._moment_of_sleepers(1)
 
     @cached_property
     def ballast_force(self) -> FloatArray:
         """Compression of the ballast under every sleeper [N], shape (supports,)."""
         parameters = self._track.parameters
+        deformation, rate = self._mean_deformation
         return (
-            parameters.ballast_stiffness * self.sleeper_displacement
-            + parameters.ballast_damping * self._rate(self._track.ballast_rows)
+            parameters.ballast_stiffness * deformation
+            + parameters.ballast_damping * rate
             + self._state.increment[: parameters.supports]
         )
 
@@ -88,13 +114,21 @@ class Observation:
 
     @cached_property
     def gauge_moment(self) -> FloatArray:
-        """Bending moment at every gauge [N m], sagging positive, shape (gauges,)."""
+        """Bending moment at every gauge [N m], sagging positive, shape (gauges,).
+
+        Zero beyond the window of an endless track, where the wheels are too far away to bend it.
+        """
         return self._moments(self._gauges)
 
     @cached_property
     def wheel_moment(self) -> FloatArray:
         """Bending moment under every wheel [N m], sagging positive, shape (wheels,)."""
         return self._moments(self._wheels)
+
+    @property
+    def window_position(self) -> FloatArray:
+        """Where the window of an endless track begins [m], shape (1,); 0 for an ordinary one."""
+        return self._state.offset * self._track.parameters.sleeper_spacing
 
     @cached_property
     def _modal(self) -> ComplexArray:
@@ -106,8 +140,8 @@ class Observation:
         return track.weight * (track.eigenvalues * state.modal + state.load)
 
     @cached_property
-    def _forces(self) -> FloatArray:
-        """Forces on the coordinates, shape (n,)."""
+    def forces(self) -> FloatArray:
+        """Forces on the coordinates, those of wheels and increments [N], [N m], shape (n,)."""
         forces = np.zeros(len(self._track.flexibility))
         forces[self._track.ballast_rows.start :] = -self._state.increment
         for wheel, force in zip(self._wheels, self._state.force, strict=True):
@@ -125,23 +159,46 @@ class Observation:
             rates[wheel.rows] += state.force[i] * state.speed[i] * wheel.slope
         return rates
 
+    @cached_property
+    def _mean_deformation(self) -> tuple[FloatArray, FloatArray]:
+        """Mean deformation of the linear ballast and its rate, shape (supports,) each."""
+        track = self._track
+        if track.parameters.sleeper == "rigid":
+            return self.ballast_deformation, self._rate(track.ballast_rows)
+        rows = slice(2 * track.parameters.supports, None)
+        shape, flexibility = track.sleeper_shape[rows], track.sleeper_flexibility[rows]
+        return (
+            np.real(shape @ self._modal) + flexibility @ self.forces,
+            np.real(shape @ self._modal_rate) + flexibility @ self._force_rates,
+        )
+
+    def _moment_of_sleepers(self, place: int) -> FloatArray:
+        supports = self._track.parameters.supports
+        if self._track.parameters.sleeper == "rigid":
+            return np.zeros(supports)
+        rows = slice(place * supports, (place + 1) * supports)
+        modal = np.real(self._track.sleeper_shape[rows] @ self._modal)
+        return modal + self._track.sleeper_flexibility[rows] @ self.forces
+
     def _displacement(self, rows: slice) -> FloatArray:
         modal = np.real(self._track.shape[rows] @ self._modal)
-        return modal + self._track.flexibility[rows] @ self._forces
+        return modal + self._track.flexibility[rows] @ self.forces
 
     def _rate(self, rows: slice) -> FloatArray:
         modal = np.real(self._track.shape[rows] @ self._modal_rate)
         return modal + self._track.flexibility[rows] @ self._force_rates
 
-    def _moments(self, points: Sequence[RailPoint]) -> FloatArray:
+    def _moments(self, points: Sequence[RailPoint | None]) -> FloatArray:
         loads = list(zip(self._wheels, self._state.force.tolist(), strict=True))
         return np.array(
             [
-                bending_moment(
+                0.0
+                if point is None
+                else bending_moment(
                     self._track,
                     point,
                     modal_state=self._modal,
-                    forces=self._forces,
+                    forces=self.forces,
                     loads=loads,
                 )
                 for point in points

@@ -4,8 +4,8 @@ Coordinates, in this order (n of them):
 
 * deflection and rotation of every rail node, ``2 * nodes`` of them; those of the clamped ends are
   kept as zeros, so that the element from node ``e`` to ``e + 1`` always has rows ``2e .. 2e + 3``;
-* deformation of the ballast under every sleeper, which is the displacement of the sleeper;
-* deformation of every rail pad, rail minus sleeper.
+* deformation of the ballast under every sleeper: its displacement, a weighted mean if it bends;
+* deformation of every rail pad, rail minus rail seat.
 
 A force on a coordinate is positive when it does positive work on it.
 """
@@ -23,6 +23,7 @@ from .beam_element import FloatArray, mass_matrix, stiffness_matrix
 from .eigensolver import ComplexArray
 from .modal import ModalBasis
 from .parameters import TrackParameters
+from .sleeper_observation import sleeper_operators
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,6 +51,10 @@ class ReducedTrack:
     moment_flexibility : (nodes, n) float array
         Likewise for the bending moments; complete up to the load inside an element, which
         `bending.py` adds.
+    sleeper_shape : (m, S) complex array
+        Modal rows of what `SleeperOperators` observes of sleepers that bend.
+    sleeper_flexibility : (m, n) float array
+        Likewise of the truncated modes, with what the spread forces do inside an element.
     """
 
     parameters: TrackParameters
@@ -59,10 +64,18 @@ class ReducedTrack:
     moment_shape: ComplexArray
     flexibility: FloatArray
     moment_flexibility: FloatArray
+    sleeper_shape: ComplexArray
+    sleeper_flexibility: FloatArray
+
+    @property
+    def seat_rows(self) -> slice:
+        """Coordinates of the rail's deflection above every sleeper."""
+        per_bay = self.parameters.elements_per_bay
+        return slice(2 * per_bay, 2 * self.parameters.elements, 2 * per_bay)
 
     @property
     def ballast_rows(self) -> slice:
-        """Coordinates of the ballast, that is of the sleepers."""
+        """Coordinates of the ballast."""
         first = 2 * (self.parameters.elements + 1)
         return slice(first, first + self.parameters.supports)
 
@@ -92,10 +105,13 @@ def reduce_track(
     """
     coordinates = _coordinate_operator(matrices)
     static_moments, modal_moments = moment_operators(parameters, matrices)
+    of_sleepers = sleeper_operators(parameters, matrices)
     shape = np.asarray(coordinates @ basis.modes)
     moment_shape = np.asarray(
         static_moments @ basis.modes + (modal_moments @ basis.modes) * basis.eigenvalues**2
     )
+    sleeper_shape = of_sleepers.of_modes(basis)
+    sleeper_flexibility = of_sleepers.of_forces(coordinates.shape[0])
     nodes, count = len(matrices.numbering.rail), coordinates.shape[0]
     if residual_flexibility:
         response = _static_response(matrices, coordinates)
@@ -104,6 +120,8 @@ def reduce_track(
         flexibility = np.asarray(coordinates @ response) + _real_product(shape, modal)
         moment_flexibility = np.asarray(static_moments @ response)
         moment_flexibility += _real_product(moment_shape, modal)
+        sleeper_flexibility += of_sleepers.static @ response
+        sleeper_flexibility += _real_product(sleeper_shape, modal)
     else:
         flexibility = np.zeros((count, count))
         moment_flexibility = np.zeros((nodes, count))
@@ -115,6 +133,8 @@ def reduce_track(
         moment_shape=moment_shape,
         flexibility=flexibility,
         moment_flexibility=moment_flexibility,
+        sleeper_shape=sleeper_shape,
+        sleeper_flexibility=sleeper_flexibility,
     )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,8 +9,7 @@ import numpy as np
 from .beam_element import FloatArray
 from .component_law import ComponentLaw
 from .components import Components
-from .contact_point import RailPoint, locate
-from .exponential_step import ExponentialStep, exponential_step
+from .exponential_step import ExponentialSteps
 from .observation import Observation
 from .reduction import ReducedTrack
 from .static_start import static_start
@@ -19,8 +17,8 @@ from .step_operator import StepOperator
 from .step_parts import count_parts
 from .supports import nearest_supports
 from .track_state import TrackState
+from .window import Window
 
-REMEMBERED_STEP_SIZES = 64
 LONGEST_STEP = 5e-4  # s; beyond about 1.5 ms force increments on straight lines are unstable
 
 
@@ -38,12 +36,15 @@ class TrackOptions:
         Speed with which the static deflection moves along at the start [m/s].
     gauges : tuple of float
         Track positions at which the bending moment is observed [m].
+    endless : bool
+        Whether the track goes on without end, the model holding the part around the wheels.
     """
 
     wheels: int = 2
     supports_per_wheel: int = 6
     initial_speed: float = 0.0
     gauges: tuple[float, ...] = ()
+    endless: bool = False
 
     def __post_init__(self) -> None:
         for name in ("wheels", "supports_per_wheel"):
@@ -80,14 +81,16 @@ class TrackModel:
     ) -> None:
         self.track = track
         self.options = options
-        self._gauges = [locate(track.parameters, position) for position in options.gauges]
         self._components = Components(track, ballast=ballast, pad=pad)
         self._state = TrackState(
             wheels=options.wheels,
             components=self._components.count,
             modes=len(track.eigenvalues),
         )
-        self._exponentials: OrderedDict[float, ExponentialStep] = OrderedDict()
+        self.window = Window(track, self._state, endless=options.endless)
+        for position in options.gauges:
+            self.window.find(position)  # refuses one beyond an ordinary track
+        self._exponentials = ExponentialSteps(track.eigenvalues)
         self._operator: StepOperator | None = None
         self._observation: Observation | None = None
 
@@ -132,7 +135,9 @@ class TrackModel:
             If the equilibrium is not found.
         """
         self._check_forces(forces)
-        wheels = self._locate(positions)
+        self.window.check(positions)
+        self.window.centre(positions)
+        wheels = self.window.locate(positions)
         static_start(
             self._state,
             self.track,
@@ -170,12 +175,13 @@ class TrackModel:
         """
         parts = count_parts(step_size, LONGEST_STEP)
         self._check_forces(forces)
-        self._locate(positions)  # refuses a wheel beyond the track before anything has changed
-        before = self._state.flat.copy() if parts > 1 else None
+        self.window.check(positions)
+        before = self._state.flat.copy() if parts > 1 or self.window.endless else None
         start, start_force = self._state.position.copy(), self._state.force.copy()
         try:
             for part in range(1, parts + 1):
                 share = part / parts if linear and part < parts else 1.0
+                self.follow_wheels()
                 operator = self.step_operator(
                     step_size / parts,
                     positions if share == 1.0 else start + share * (positions - start),
@@ -185,20 +191,27 @@ class TrackModel:
                     self._state,
                     forces if share == 1.0 else start_force + share * (forces - start_force),
                 )
-        except RuntimeError:
+        except (ValueError, RuntimeError):
             if before is not None:
-                self._state.flat[:] = before
+                self.state = before
             raise
         self._observation = None
 
     def observe(self) -> Observation:
         """Displacements, forces and bending moments in the present state, until it changes."""
         if self._observation is None:
-            wheels = self._locate(self._state.position)
             self._observation = Observation(
-                self.track, self._state, wheels=wheels, gauges=self._gauges
+                self.track,
+                self._state,
+                wheels=self.window.locate(self._state.position),
+                gauges=[self.window.find(position) for position in self.options.gauges],
             )
         return self._observation
+
+    def follow_wheels(self) -> None:
+        """Move the window of an endless track where that is due, before an undivided step."""
+        if self.window.follow(lambda: self.observe().forces):
+            self._observation = None
 
     def step_operator(
         self, step_size: float, positions: FloatArray, *, linear: bool
@@ -210,10 +223,10 @@ class TrackModel:
                 self._state,
                 self.track,
                 self._components.active(self._nearest(positions)),
-                self._exponential(step_size),
+                self._exponentials.of(step_size),
                 step_size=step_size,
                 positions=positions,
-                wheels=self._locate(positions),
+                wheels=self.window.locate(positions),
                 linear=linear,
             )
         return operator
@@ -231,19 +244,6 @@ class TrackModel:
                     "number; look for the cause in the vehicle"
                 )
 
-    def _locate(self, positions: FloatArray) -> list[RailPoint]:
-        return [locate(self.track.parameters, float(position)) for position in positions]
-
     def _nearest(self, positions: FloatArray) -> tuple[int, ...]:
-        return nearest_supports(self.track.parameters, positions, self.options.supports_per_wheel)
-
-    def _exponential(self, step_size: float) -> ExponentialStep:
-        """Coefficients of a step size; those used last are remembered."""
-        known = self._exponentials
-        if step_size in known:
-            known.move_to_end(step_size)
-        else:
-            known[step_size] = exponential_step(self.track.eigenvalues, step_size)
-            if len(known) > REMEMBERED_STEP_SIZES:
-                known.popitem(last=False)
-        return known[step_size]
+        parameters, count = self.track.parameters, self.options.supports_per_wheel
+        return nearest_supports(parameters, positions - self.window.position, count)

@@ -28,6 +28,8 @@ class TrackState:
         What viscoelastic pads remember, (supports,) each.
     modal, load : (S,) complex array
         Modal states ``q`` and modal loads ``Q``.
+    offset : (1,) float array
+        Bays by which the window of an endless track has moved; 0 for an ordinary one.
     """
 
     __slots__ = (
@@ -39,6 +41,7 @@ class TrackState:
         "increment_rate",
         "load",
         "modal",
+        "offset",
         "pads",
         "position",
         "speed",
@@ -46,11 +49,12 @@ class TrackState:
 
     def __init__(self, *, wheels: int, components: int, modes: int) -> None:
         supports = components // 2
-        self.flat: FloatArray = np.zeros(5 * wheels + 2 * components + 3 * supports + 4 * modes)
-        lengths = [wheels] * 5 + [components] * 2 + [supports] * 3 + [2 * modes] * 2
+        self.flat: FloatArray = np.zeros(5 * wheels + 2 * components + 3 * supports + 4 * modes + 1)
+        lengths = [wheels] * 5 + [components] * 2 + [supports] * 3 + [2 * modes] * 2 + [1]
         parts = np.split(self.flat, np.cumsum(lengths)[:-1])  # views, not copies
         self.position, self.speed, self.force, self.force_rate, self.displacement = parts[:5]
         self.increment, self.increment_rate = parts[5:7]
         self.pads = PadMemory(*parts[7:10])
         self.modal: ComplexArray = parts[10].view(np.complex128)
         self.load: ComplexArray = parts[11].view(np.complex128)
+        self.offset = parts[12]

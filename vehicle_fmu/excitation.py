@@ -1,16 +1,15 @@
 """What the wheels roll over: tread and railhead drops under each wheel at the stage times."""
 
-import math
+from collections.abc import Sequence
 from functools import cached_property
 
+from .integration import substeps_of
 from .irregularity import RailIrregularity
+from .out_of_roundness import OutOfRoundness
 from .parameters import FlatParameters, VehicleParameters
 from .speed import SpeedLaw
 from .surfaces import surface_profiles
 from .wheel_profile import Profile, WheelProfileTable
-
-# A step of exactly n longest substeps takes n of them, whatever the rounding of the quotient.
-_ROUNDING = 1e-9
 
 
 class Excitation:
@@ -19,8 +18,8 @@ class Excitation:
     Parameters
     ----------
     parameters : VehicleParameters
-        Start position, wheel distance, wheel radius and longest substep.
-    flat, flat_table, irregularity, speed
+        Start position, wheel offsets, wheel radius and longest substep.
+    flat, flat_table, irregularity, out_of_roundness, speed
         As for `VehicleModel`, already checked.
 
     Notes
@@ -36,14 +35,16 @@ class Excitation:
         flat: FlatParameters,
         flat_table: WheelProfileTable | None,
         irregularity: RailIrregularity | None,
+        out_of_roundness: Sequence[OutOfRoundness | None],
         speed: SpeedLaw,
     ) -> None:
         self._parameters = parameters
         self._flat = flat
         self._flat_table = flat_table
         self._irregularity = irregularity
+        self._out_of_roundness = tuple(out_of_roundness)
         self._speed = speed
-        self._lags = [i * parameters.axle_base for i in range(parameters.wheels)]
+        self._lags = parameters.offsets
         self._last_step: tuple[float, float, float] | None = None
         self._last_drops: list[list[float]] = []
 
@@ -73,8 +74,7 @@ class Excitation:
         """
         step = (start, time, step_size)
         if step != self._last_step:
-            substeps = math.ceil(step_size / self._parameters.substep * (1.0 - _ROUNDING))
-            halves = 2 * substeps
+            halves = 2 * substeps_of(step_size, self._parameters.substep)
             times = [time + k * step_size / halves for k in range(halves)]
             leading = [self._leading_position(start, t) for t in (*times, time + step_size)]
             self._last_drops = [
@@ -97,6 +97,7 @@ class Excitation:
             self._flat,
             self._flat_table,
             self._irregularity,
+            out_of_roundness=self._out_of_roundness,
             wheels=self._parameters.wheels,
             radius=self._parameters.wheel_radius,
         )

@@ -49,17 +49,9 @@ def hertz_coefficient(
         If a radius or E is not positive and finite, nu is outside [0, 0.5], or the radii are so
         far apart that the contact is a line.
     """
-    require_positive("wheel_radius", wheel_radius, "m", "give half the wheel diameter")
-    require_positive("rail_radius", rail_radius, "m", "0.3 for a UIC60 railhead")
-    require_positive("youngs_modulus", youngs_modulus, "Pa", "206e9 for steel")
-    if not 0.0 <= poissons_ratio <= 0.5:
-        raise ValueError(
-            f"poissons_ratio is {poissons_ratio:g}; it must be in 0 to 0.5: 0.3 for steel"
-        )
+    q = squared_axis_ratio(wheel_radius, rail_radius)
+    modulus = effective_modulus(youngs_modulus, poissons_ratio)
     large = max(wheel_radius, rail_radius)
-    ratio = large / min(wheel_radius, rail_radius)
-    q = _squared_axis_ratio(ratio)
-    modulus = youngs_modulus / (2.0 * (1.0 - poissons_ratio**2))
     return float(
         2.0
         * math.pi
@@ -70,8 +62,21 @@ def hertz_coefficient(
     )
 
 
-def _squared_axis_ratio(curvature_ratio: float) -> float:
-    """Return q = (b/a)^2 of the contact ellipse for a ratio of relative curvatures >= 1."""
+def effective_modulus(youngs_modulus: float, poissons_ratio: float) -> float:
+    """Return E* = E / (2 (1 - nu^2)) of two bodies of the same material [Pa]."""
+    require_positive("youngs_modulus", youngs_modulus, "Pa", "206e9 for steel")
+    if not 0.0 <= poissons_ratio <= 0.5:
+        raise ValueError(
+            f"poissons_ratio is {poissons_ratio:g}; it must be in 0 to 0.5: 0.3 for steel"
+        )
+    return youngs_modulus / (2.0 * (1.0 - poissons_ratio**2))
+
+
+def squared_axis_ratio(wheel_radius: float, rail_radius: float) -> float:
+    """Return q = (b/a)^2 <= 1 of the contact ellipse of a wheel and a rail of these radii [m]."""
+    require_positive("wheel_radius", wheel_radius, "m", "give half the wheel diameter")
+    require_positive("rail_radius", rail_radius, "m", "0.3 for a UIC60 railhead")
+    curvature_ratio = max(wheel_radius, rail_radius) / min(wheel_radius, rail_radius)
 
     def mismatch(log_q: float) -> float:
         q = math.exp(log_q)

@@ -1,6 +1,16 @@
 """Motion of one wheel over one step: Runge-Kutta-Nystroem of order 4 with equal substeps."""
 
+import math
+
 from .contact import hertz_force
+
+_ROUNDING = 1e-9
+"""A step of exactly n longest substeps takes n of them, whatever the rounding of the quotient."""
+
+
+def substeps_of(duration: float, longest: float) -> int:
+    """Return the number of equal substeps of a duration [s], none above the longest [s]."""
+    return max(1, math.ceil(duration / longest * (1.0 - _ROUNDING)))
 
 
 def integrate_wheel(

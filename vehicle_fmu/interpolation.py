@@ -65,16 +65,50 @@ def monotone_curve(x: FloatArray, y: FloatArray) -> PiecewiseCubic:
     """
     width = np.diff(x)
     chord = np.diff(y) / width
-    slope = np.zeros_like(y)
+    slope = np.empty_like(y)
+    slope[1:-1] = _inner_slopes(width, chord)
+    slope[0] = _end_slope(width[0], width[1], chord[0], chord[1])
+    slope[-1] = _end_slope(width[-1], width[-2], chord[-1], chord[-2])
+    return PiecewiseCubic(x, y, np.column_stack((slope[:-1], slope[1:])))
+
+
+def periodic_monotone_curve(x: FloatArray, y: FloatArray, period: float) -> PiecewiseCubic:
+    """Return one period of a smooth curve through n >= 3 points and again through the first.
+
+    As `monotone_curve`, with the slope at every point that of an inner one.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,)
+        Strictly increasing abscissas, the last less than `period` above the first.
+    y : ndarray, shape (n,)
+        Value at each of them.
+    period : float
+        Length after which the curve comes back.
+
+    Returns
+    -------
+    PiecewiseCubic
+        From the first abscissa to that plus the period.
+    """
+    breaks, values = np.append(x, x[0] + period), np.append(y, y[0])
+    width = np.diff(breaks)
+    chord = np.diff(values) / width
+    around = _inner_slopes(np.append(width[-1], width), np.append(chord[-1], chord))
+    slope = np.append(around, around[0])
+    return PiecewiseCubic(breaks, values, np.column_stack((slope[:-1], slope[1:])))
+
+
+def _inner_slopes(width: FloatArray, chord: FloatArray) -> FloatArray:
+    """Return the slopes between n neighbouring chords of these widths, shape (n - 1,)."""
+    slope = np.zeros(chord.size - 1)
     same_way = chord[:-1] * chord[1:] > 0.0
     before, after = chord[:-1][same_way], chord[1:][same_way]
     w_before = (2.0 * width[1:] + width[:-1])[same_way]
     w_after = (width[1:] + 2.0 * width[:-1])[same_way]
     mixed = w_before * after + w_after * before
-    slope[1:-1][same_way] = (w_before + w_after) * before / mixed * after
-    slope[0] = _end_slope(width[0], width[1], chord[0], chord[1])
-    slope[-1] = _end_slope(width[-1], width[-2], chord[-1], chord[-2])
-    return PiecewiseCubic(x, y, np.column_stack((slope[:-1], slope[1:])))
+    slope[same_way] = (w_before + w_after) * before / mixed * after
+    return slope
 
 
 def _end_slope(h0: float, h1: float, chord0: float, chord1: float) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 from .speed import SpeedLaw
 from .validation import (
     FloatArray,
+    check_offsets,
     require_finite,
     require_position,
     require_positive,
@@ -42,10 +43,7 @@ class MassesParameters:
     initial_position: float = 12.7
 
     def __post_init__(self) -> None:
-        if not self.offsets or self.offsets[0] != 0.0:
-            raise ValueError(f"the offsets are {self.offsets}; the first, of wheel 1, must be 0 m")
-        for number, offset in enumerate(self.offsets, start=1):
-            require_finite(f"offset of wheel {number}", offset, "m", "give its way behind wheel 1")
+        check_offsets(self.offsets)
         require_positive(
             "wheel_mass", self.wheel_mass, "kg", "give half the unsprung mass of a wheelset"
         )
@@ -100,7 +98,7 @@ class Masses:
         """
         if not math.isfinite(time):
             raise ValueError(f"the start time is {time:g} s; it must be a finite number")
-        _check_forces(forces)
+        check_forces(forces)
         self._state[:3] = time, time, 0.0
         self._wheels[:] = 0.0
         self._wheels[2] = forces
@@ -127,7 +125,7 @@ class Masses:
             the time on.
         """
         require_step(time, step_size, reached=float(self._state[1]), what="masses are")
-        _check_forces(forces)
+        check_forces(forces)
         before, passed = self.state, float(self._state[2])
         with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused below
             if linear and passed > 0.0:  # where nobody tells what the forces have become
@@ -218,7 +216,8 @@ def accelerated(
     return displacement + moved, velocity + duration * (acceleration + 0.5 * duration * jerk)
 
 
-def _check_forces(forces: FloatArray) -> None:
+def check_forces(forces: FloatArray) -> None:
+    """Raise ValueError unless every contact force [N] is a finite number, shape (wheels,)."""
     for number, force in enumerate(forces.tolist(), start=1):
         if not math.isfinite(force):
             raise ValueError(

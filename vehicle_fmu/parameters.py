@@ -3,25 +3,23 @@
 from dataclasses import dataclass
 from typing import Literal, TypeAlias, get_args
 
-from .validation import require_finite, require_positive
+from .validation import check_offsets, require_finite, require_positive
 
 FlatShape: TypeAlias = Literal["none", "haversine", "parabola", "cusp", "chord", "table"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VehicleParameters:
-    """A row of equal, independent wheels; defaults of Nielsen & Oscarsson (2004), Table 1.
+    """A row of equal wheels; defaults of Nielsen & Oscarsson (2004), Table 1.
 
     Attributes
     ----------
-    wheels : int
-        Number of wheels on the rail. Wheel 1 leads.
+    offsets : tuple of float
+        How far each wheel runs behind wheel 1 [m], wheel 1 included, which has 0.
     wheel_mass : float
         Mass moving with each wheel, half the unsprung mass of a wheelset [kg].
     static_wheel_load : float
         Total static wheel-rail force, the only weight in the model [N].
-    axle_base : float
-        Distance between successive wheels [m].
     wheel_radius : float
         Rolling radius [m].
     hertz_coefficient : float
@@ -38,28 +36,30 @@ class VehicleParameters:
         If a value is not finite or outside its range.
     """
 
-    wheels: int = 2
+    offsets: tuple[float, ...] = (0.0, 1.8)
     wheel_mass: float = 592.5
     static_wheel_load: float = 117_720.0
-    axle_base: float = 1.8
     wheel_radius: float = 0.45
     hertz_coefficient: float = 9.17e10
     initial_position: float = 12.7
     substep: float = 2e-5
 
     def __post_init__(self) -> None:
-        if self.wheels < 1:
-            raise ValueError(f"wheels is {self.wheels}; a vehicle has at least 1")
+        check_offsets(self.offsets)
         for name, unit, remedy in (
             ("wheel_mass", "kg", "give half the unsprung mass of a wheelset"),
             ("static_wheel_load", "N", "give half the axle load as a force"),
-            ("axle_base", "m", "give the distance between successive wheels"),
             ("wheel_radius", "m", "give half the wheel diameter"),
             ("hertz_coefficient", "N/m^1.5", "about 9e10 for steel wheel and rail"),
             ("substep", "s", "2e-5 resolves the contact"),
         ):
             require_positive(name, getattr(self, name), unit, remedy)
         require_finite("initial_position", self.initial_position, "m", "give the start of wheel 1")
+
+    @property
+    def wheels(self) -> int:
+        """Number of wheels on the rail."""
+        return len(self.offsets)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -26,6 +26,23 @@ def require_positive(name: str, value: float, unit: str, remedy: str) -> None:
         )
 
 
+def require_not_negative(name: str, value: float, unit: str, remedy: str) -> None:
+    """Raise ValueError unless `value` is finite and not below zero."""
+    if not (math.isfinite(value) and value >= 0.0):
+        shown = f"{value:g} {unit}".rstrip()
+        raise ValueError(
+            f"{name} is {shown}; it must be a finite number and not negative: {remedy}"
+        )
+
+
+def check_offsets(offsets: tuple[float, ...]) -> None:
+    """Raise ValueError unless the offsets [m] of all wheels are finite, that of the first is 0."""
+    if not offsets or offsets[0] != 0.0:
+        raise ValueError(f"the offsets are {offsets}; the first, of wheel 1, must be 0 m")
+    for number, offset in enumerate(offsets, start=1):
+        require_finite(f"offset of wheel {number}", offset, "m", "give its way behind wheel 1")
+
+
 def require_step(time: float, step_size: float, *, reached: float, what: str) -> None:
     """Raise ValueError unless a step goes on from where a model is, to an end that is later.
 

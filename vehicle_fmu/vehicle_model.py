@@ -1,6 +1,7 @@
 """The vehicle: wheels that roll along a moving rail, each in Hertzian contact with it."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -9,9 +10,11 @@ from .contact import hertz_compression, hertz_force
 from .excitation import Excitation
 from .integration import integrate_wheel
 from .irregularity import RailIrregularity
+from .out_of_roundness import OutOfRoundness
 from .parameters import FlatParameters, VehicleParameters
 from .running_surface import checked_rail_displacement, surface_over_step
 from .speed import SpeedLaw
+from .surfaces import check_out_of_roundness
 from .validation import FloatArray, require_position, require_step
 from .wheel_profile import WheelProfileTable, check_flat
 
@@ -40,12 +43,15 @@ class VehicleModel:
         The measured profile of a flat of shape "table".
     irregularity : RailIrregularity, optional
         The railhead's irregularity; a perfect rail without.
+    out_of_roundness : sequence of OutOfRoundness or None, optional
+        Of every wheel, None for a round one; all are round without. Angle zero meets the rail
+        where the centre of the flat does.
 
     Raises
     ------
     ValueError
-        If the flat is on no wheel of this vehicle, does not fit on the wheel, or its shape and
-        table do not go together.
+        If the flat is on no wheel of this vehicle, does not fit on the wheel, its shape and
+        table do not go together, or the number of tables is not that of the wheels.
 
     Notes
     -----
@@ -61,17 +67,25 @@ class VehicleModel:
         speed: SpeedLaw,
         flat_table: WheelProfileTable | None = None,
         irregularity: RailIrregularity | None = None,
+        out_of_roundness: Sequence[OutOfRoundness | None] = (),
     ) -> None:
         check_flat(flat, flat_table, radius=parameters.wheel_radius, wheels=parameters.wheels)
+        check_out_of_roundness(out_of_roundness, wheels=parameters.wheels)
         self.parameters = parameters
         self._excitation = Excitation(
-            parameters, flat=flat, flat_table=flat_table, irregularity=irregularity, speed=speed
+            parameters,
+            flat=flat,
+            flat_table=flat_table,
+            irregularity=irregularity,
+            out_of_roundness=out_of_roundness,
+            speed=speed,
         )
         self._start = self._time = math.nan
         self._displacement: list[float] = []
         self._velocity: list[float] = []
         self._rail: list[float] = []
         self._compression: list[float] = []
+        self._bodies: list[float] = []  # what a `SuspendedVehicle` has besides its wheels
 
     def initialise(self, time: float, rail_displacement: FloatArray | None = None) -> None:
         """Put every wheel at rest in static equilibrium at its start position.
@@ -131,33 +145,41 @@ class VehicleModel:
         self._check_step(time, step_size)
         rail = checked_rail_displacement(rail_displacement, self.parameters.wheels)
         drops = self._excitation.drops_over_step(self._start, time, step_size)
+        before = self._rail if linear else rail
+        levels = [
+            surface_over_step(start, end, row)
+            for start, end, row in zip(before, rail, drops, strict=True)
+        ]
+        z, v = self._move(levels, step_size, rail)
+        self._accept(time + step_size, z, v, rail, [row[-1] for row in drops])
+
+    def _move(
+        self, levels: list[list[float]], step_size: float, rail: list[float]
+    ) -> tuple[list[float], list[float]]:
+        """Return where and how fast the wheels are [m], [m/s] when the surfaces have moved so."""
         moved = [
             integrate_wheel(
                 self._displacement[i],
                 self._velocity[i],
-                surface_over_step(self._rail[i] if linear else rail[i], rail[i], drops[i]),
+                level,
                 step_size=step_size,
                 mass=self.parameters.wheel_mass,
                 load=self.parameters.static_wheel_load,
                 coefficient=self.parameters.hertz_coefficient,
             )
-            for i in range(self.parameters.wheels)
+            for i, level in enumerate(levels)
         ]
-        for i, motion in enumerate(moved):
-            if not all(map(math.isfinite, motion)):
-                raise ValueError(
-                    f"the rail displacement of {rail[i]:g} m under wheel {i + 1} drives the wheel "
-                    f"to {motion[0]:g} m at {motion[1]:g} m/s; give a smaller one or a shorter step"
-                )
         z, v = zip(*moved, strict=True)
-        self._accept(time + step_size, [*z], [*v], rail, [row[-1] for row in drops])
+        check_motion(z, v, rail)
+        return [*z], [*v]
 
     @property
     def state(self) -> FloatArray:
         """The complete state, shape (2 + 3 wheels,), as a copy.
 
         Start time and time [s], displacement [m] and velocity [m/s] of every wheel, and the last
-        rail displacement under every wheel [m]. Setting it restores every output bit for bit.
+        rail displacement under every wheel [m]; the bodies of a `SuspendedVehicle` come behind.
+        Setting it restores every output bit for bit.
 
         Raises
         ------
@@ -167,23 +189,25 @@ class VehicleModel:
             On setting, if the length is wrong or a value is not finite.
         """
         self._require_started()
-        return np.array(
-            [self._start, self._time, *self._displacement, *self._velocity, *self._rail]
-        )
+        wheels = [*self._displacement, *self._velocity, *self._rail]
+        return np.array([self._start, self._time, *wheels, *self._bodies])
 
     @state.setter
     def state(self, state: FloatArray) -> None:
         n = self.parameters.wheels
-        if state.shape != (2 + 3 * n,):
+        count = 2 + 3 * n
+        if state.shape != (count + len(self._bodies),):
             raise ValueError(
-                f"the state has shape {state.shape}; that of {n} wheels has {(2 + 3 * n,)}"
+                f"the state has shape {state.shape}; that of {n} wheels has "
+                f"{(count + len(self._bodies),)}"
             )
         values: list[float] = state.tolist()
         if not all(map(math.isfinite, values)):
             raise ValueError("the state holds a NaN or infinity; it is not one this model saved")
-        start, time, *wheels = values
+        start, time, *wheels = values[:count]
         drops = self._excitation.drops(start, time)
         self._start = start
+        self._bodies = values[count:]
         self._accept(time, wheels[:n], wheels[n : 2 * n], wheels[2 * n :], drops)
 
     @property
@@ -256,3 +280,15 @@ class VehicleModel:
     def _require_started(self) -> None:
         if not self._displacement:
             raise RuntimeError("the vehicle has no state yet: call initialise first")
+
+
+def check_motion(
+    displacement: Sequence[float], velocity: Sequence[float], rail: Sequence[float]
+) -> None:
+    """Raise ValueError unless the motion of every wheel is one of finite numbers."""
+    for i, (z, v) in enumerate(zip(displacement, velocity, strict=True)):
+        if not (math.isfinite(z) and math.isfinite(v)):
+            raise ValueError(
+                f"the rail displacement of {rail[i]:g} m under wheel {i + 1} drives the wheel "
+                f"to {z:g} m at {v:g} m/s; give a smaller one or a shorter step"
+            )

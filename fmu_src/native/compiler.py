@@ -54,14 +54,20 @@ ON_TRACK = (
     "table_file.c",
     "track_memory.c",
     "track_setup.c",
+    "window.c",
+    "window_shift.c",
 )
 TRACK = (*ON_TRACK, "track.c", "track_derivative.c")
 MOTION = ("curve.c", "motion.c", "table_file.c")
-SURFACES = ("curve.c", "flat.c", "surfaces.c", "table_file.c")
+SURFACES = ("curve.c", "flat.c", "surfaces.c", "table_file.c", "tread.c")
+SUSPENSION = ("suspension.c", "suspension_setup.c")
 VEHICLE = (
     *dict.fromkeys((*MOTION, *SURFACES)),
+    *SUSPENSION,
     "excitation.c",
+    "suspended_vehicle.c",
     "vehicle.c",
+    "vehicle_outputs.c",
     "vehicle_setup.c",
     "wheel.c",
 )
@@ -73,7 +79,7 @@ TRACK_CONTACT = (
     "continuation.c",
     "track_contact.c",
 )
-MASSES = (*MOTION, "masses.c")
+MASSES = (*MOTION, *SUSPENSION, "dense.c", "masses.c", "masses_setup.c", "suspended_masses.c")
 MODELS = {
     name: (*FMI, *COMMON, *own)
     for name, own in (

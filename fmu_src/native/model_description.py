@@ -24,7 +24,7 @@ CATEGORIES = {
     "logStatusWarning": "What is doubtful about steps that are made",
 }
 INDEX = re.compile(r"\[\d+\]")
-COUNTED = re.compile(r"\b(wheel|sleeper|gauge) \d+")
+COUNTED = re.compile(r"\b(wheel|sleeper|gauge|bogie) \d+")
 """Where a name, and where a description, says which of several variables it is."""
 
 FMI2_TYPES = {bool: "Boolean", int: "Integer", float: "Real", str: "String"}

@@ -12,11 +12,11 @@ from fmu_src.python.basis_cache import cached_basis
 from fmu_src.python.masses_variables import declare_masses
 from fmu_src.python.model_slave import LINEAR_INPUTS
 from fmu_src.python.track_contact_variables import declare_track_contact
-from fmu_src.python.track_variables import TABLE_1, declare_track
+from fmu_src.python.track_variables import SLEEPER, TABLE_1, declare_track
 from fmu_src.python.variables import Variable
 from fmu_src.python.vehicle_variables import declare_vehicle
 from track_fmu.assembly import assemble
-from track_fmu.beam_element import FloatArray, shear_parameter
+from track_fmu.beam_element import FloatArray, mass_matrix, shear_parameter
 from track_fmu.eigensolver import ComplexArray
 from track_fmu.parameters import TrackParameters
 from track_fmu.reduction import ReducedTrack, reduce_track
@@ -55,7 +55,7 @@ def track_resource(
     reduced = reduce_track(parameters, matrices, basis, residual_flexibility=residual_flexibility)
     declare = declare_track_contact if contact else _declare_track
     variables = declare(parameters, wheels=wheels, gauges=gauges)
-    fixed = {name: asdict(parameters)[name] for name, _, _ in TABLE_1}
+    fixed = {name: asdict(parameters)[name] for name, _, _ in (*TABLE_1, *SLEEPER)}
     fixed |= {"mode_pairs": mode_pairs, "residual_flexibility": residual_flexibility}
     half = _filled(len(reduced.eigenvalues))
     sections: dict[str, Section] = {
@@ -68,29 +68,31 @@ def track_resource(
             dtype=np.int64,
         ),
         "numbers": _numbers(parameters),
+        "inertia": _inertia(parameters),
     }
     return pack(sections | _modes(reduced, half) | start_values(variables, fixed))
 
 
-def vehicle_resource(*, wheels: int) -> bytes:
+def vehicle_resource(*, wheels: int, bogies: int = 1) -> bytes:
     """Resource of a vehicle; all of its parameters stay parameters of the FMU."""
-    return _wheels_resource(b"Vehicle", wheels, [*declare_vehicle(wheels), LINEAR_INPUTS])
+    variables = [*declare_vehicle(wheels, bogies=bogies), LINEAR_INPUTS]
+    return _wheels_resource(b"Vehicle", (wheels, bogies), variables)
 
 
-def masses_resource(*, wheels: int) -> bytes:
+def masses_resource(*, wheels: int, bogies: int = 1) -> bytes:
     """Resource of wheel masses; all of their parameters stay parameters of the FMU."""
-    return _wheels_resource(b"Masses", wheels, declare_masses(wheels))
+    return _wheels_resource(b"Masses", (wheels, bogies), declare_masses(wheels, bogies=bogies))
 
 
 def _declare_track(structure: TrackParameters, *, wheels: int, gauges: int) -> list[Variable]:
     return [*declare_track(structure, wheels=wheels, gauges=gauges), LINEAR_INPUTS]
 
 
-def _wheels_resource(model: bytes, wheels: int, variables: Sequence[Variable]) -> bytes:
-    """Resource of a model of which nothing is fixed but the number of wheels."""
+def _wheels_resource(model: bytes, size: tuple[int, int], variables: Sequence[Variable]) -> bytes:
+    """Resource of a model of which nothing is fixed but the numbers of wheels and bogies."""
     sections: dict[str, Section] = {
         "model": model,
-        "structure": np.array([wheels], dtype=np.int64),
+        "structure": np.array(size, dtype=np.int64),
     }
     return pack(sections | start_values(variables, {}))
 
@@ -108,11 +110,21 @@ def _numbers(parameters: TrackParameters) -> FloatArray:
     )
 
 
+def _inertia(parameters: TrackParameters) -> FloatArray:
+    """Mass matrix of an element, by rows, then the mass of a sleeper: what moves a window."""
+    element = mass_matrix(parameters.section, parameters.element_length)
+    return np.append(element, parameters.sleeper_mass)
+
+
 def _modes(reduced: ReducedTrack, half: int) -> dict[str, Section]:
     """The reduced track, rows of modes split and filled up."""
     weight = np.zeros(half)
     weight[: len(reduced.weight)] = reduced.weight
-    return {
+    sleepers: dict[str, Section] = {
+        "sleeper_shape": _rows(reduced.sleeper_shape, half),
+        "sleeper_flexibility": reduced.sleeper_flexibility,
+    }
+    return (sleepers if len(reduced.sleeper_shape) else {}) | {
         "eigenvalues": _rows(reduced.eigenvalues, half),
         "inverses": _rows(1.0 / reduced.eigenvalues, half),
         "weight": weight,

@@ -9,14 +9,18 @@ from functools import partial
 from fmu_src.python.masses_variables import declare_masses
 from fmu_src.python.model_slave import LINEAR_INPUTS
 from fmu_src.python.track_contact_variables import declare_track_contact
-from fmu_src.python.track_variables import TABLE_1, declare_track
+from fmu_src.python.track_variables import SLEEPER, TABLE_1, declare_track
 from fmu_src.python.variables import Value, Variable
 from fmu_src.python.vehicle_variables import declare_vehicle
 from track_fmu.parameters import TrackParameters
 
 from .model_resources import masses_resource, track_resource, vehicle_resource
 
-TRACK_CONSTANTS = (*(name for name, _, _ in TABLE_1), "mode_pairs", "residual_flexibility")
+TRACK_CONSTANTS = (
+    *(name for name, _, _ in (*TABLE_1, *SLEEPER)),
+    "mode_pairs",
+    "residual_flexibility",
+)
 """Parameters of the Python track that are constants of the native one: its modes depend on them."""
 
 FORCE_PORT = ("position", "contact_force", "rail_displacement")
@@ -111,7 +115,7 @@ def native_track(
         raise ValueError(
             f"{unknown[0]} is not fixed in a native track; only {', '.join(TRACK_CONSTANTS)} are"
         )
-    of_track = {name: fixed[name] for name, _, _ in TABLE_1 if name in fixed}
+    of_track = {name: fixed[name] for name, _, _ in (*TABLE_1, *SLEEPER) if name in fixed}
     size = TrackParameters(bays=bays, elements_per_bay=elements_per_bay)
     parameters = replace(size, **of_track)  # type: ignore[arg-type]  # checked by the class
     declare = declare_track_contact if contact else _declare_track
@@ -151,33 +155,33 @@ def native_track(
     )
 
 
-def native_vehicle(*, wheels: int) -> NativeModel:
-    """Vehicle with so many wheels; all of its parameters stay parameters."""
+def native_vehicle(*, wheels: int, bogies: int = 1) -> NativeModel:
+    """Vehicle with so many wheels and bogies; all of its parameters stay parameters."""
     return NativeModel(
         kind="vehicle",
         name="Vehicle",
-        description="Moving wheel masses in Hertzian contact with the rail, with a wheel flat",
-        variables=(*declare_vehicle(wheels), LINEAR_INPUTS),
-        structure={"wheels": wheels},
+        description="Moving vehicle in Hertzian contact with the rail, with a wheel flat",
+        variables=(*declare_vehicle(wheels, bogies=bogies), LINEAR_INPUTS),
+        structure={"wheels": wheels, "bogies": bogies},
         ports=_ports(wheels, FORCE_PORT),
         usual=True,
         switches=True,
-        make_resource=partial(vehicle_resource, wheels=wheels),
+        make_resource=partial(vehicle_resource, wheels=wheels, bogies=bogies),
     )
 
 
-def native_masses(*, wheels: int) -> NativeModel:
-    """So many wheel masses for a track that finds their contact forces."""
+def native_masses(*, wheels: int, bogies: int = 1) -> NativeModel:
+    """Vehicle with so many wheels and bogies for a track that finds their contact forces."""
     return NativeModel(
         kind="masses",
         name="Masses",
-        description="Moving wheel masses under given contact forces, in any number of bogies",
-        variables=tuple(declare_masses(wheels)),
-        structure={"wheels": wheels},
+        description="Moving vehicle under given contact forces, in any number of bogies",
+        variables=tuple(declare_masses(wheels, bogies=bogies)),
+        structure={"wheels": wheels, "bogies": bogies},
         ports=_ports(wheels, MOTION_PORT),
         usual=True,
         switches=False,
-        make_resource=partial(masses_resource, wheels=wheels),
+        make_resource=partial(masses_resource, wheels=wheels, bogies=bogies),
     )
 
 

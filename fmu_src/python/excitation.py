@@ -1,4 +1,4 @@
-"""Flat, irregularity and speed from the parameters of an FMU; tables are read from their files."""
+"""Surfaces, offsets and speed from the parameters of an FMU, tables from files."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any, cast
 
 from vehicle_fmu.irregularity import RailIrregularity
+from vehicle_fmu.out_of_roundness import OutOfRoundness
 from vehicle_fmu.parameters import FlatParameters, FlatShape
 from vehicle_fmu.speed import ConstantSpeed, SpeedTable
 from vehicle_fmu.wheel_profile import WheelProfileTable
@@ -19,6 +20,11 @@ def make_flat(parameters: Mapping[str, Any]) -> tuple[FlatParameters, WheelProfi
     shape, table = _flat_shape(parameters["flat.shape"])
     values = {name: parameters[f"flat.{name}"] for name, _, _ in FLAT}
     return FlatParameters(shape=shape, **values), table
+
+
+def wheel_offsets(parameters: Mapping[str, Any], wheels: int) -> tuple[float, ...]:
+    """How far each wheel runs behind the first [m]."""
+    return (0.0, *(parameters[f"wheel[{i}].offset"] for i in range(2, wheels + 1)))
 
 
 def speed_law(parameters: Mapping[str, Any]) -> ConstantSpeed | SpeedTable:
@@ -36,6 +42,17 @@ def irregularity(path: str) -> RailIrregularity | None:
         return None
     columns = read_table(path, ("position", "drop"))
     return RailIrregularity(position=columns["position"], drop=columns["drop"])
+
+
+def out_of_roundness(parameters: Mapping[str, Any], *, wheels: int) -> list[OutOfRoundness | None]:
+    """Out-of-roundness of every wheel from its table; none of a wheel without a path."""
+    paths = [parameters[f"wheel[{i + 1}].out_of_roundness"] for i in range(wheels)]
+    return [_tread(path) if path else None for path in paths]
+
+
+def _tread(path: str) -> OutOfRoundness:
+    columns = read_table(path, ("angle", "drop"))
+    return OutOfRoundness(angle=columns["angle"], drop=columns["drop"])
 
 
 def _flat_shape(shape: str) -> tuple[FlatShape, WheelProfileTable | None]:

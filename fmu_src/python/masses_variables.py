@@ -7,8 +7,9 @@ from dataclasses import replace
 from vehicle_fmu.parameters import VehicleParameters
 
 from .model_slave import LINEAR_INPUTS
+from .suspension_variables import body_outputs, suspension_parameters
 from .variables import Variable
-from .vehicle_variables import speed_parameters, vehicle_parameters
+from .vehicle_variables import offset_parameters, speed_parameters, vehicle_parameters
 
 INPUT_TIME = replace(
     LINEAR_INPUTS,
@@ -18,28 +19,17 @@ INPUT_TIME = replace(
 )
 
 
-def declare_masses(wheels: int) -> list[Variable]:
-    """Variables of an FMU of the given number of wheel masses."""
+def declare_masses(wheels: int, *, bogies: int = 1) -> list[Variable]:
+    """Variables of an FMU of the given number of wheels and bogies."""
     return [
         *speed_parameters(),
-        *vehicle_parameters("wheel_mass", "static_wheel_load", "initial_position"),
-        *_offsets(wheels),
+        *vehicle_parameters("wheel_mass", "static_wheel_load", "initial_position", "substep"),
+        *offset_parameters(wheels),
+        *suspension_parameters(bogies),
         *_inputs(wheels),
         *_outputs(wheels),
+        *body_outputs(wheels, bogies),
         INPUT_TIME,
-    ]
-
-
-def _offsets(wheels: int) -> list[Variable]:
-    return [
-        Variable(
-            name=f"wheel[{i + 1}].offset",
-            causality="parameter",
-            unit="m",
-            start=i * VehicleParameters().axle_base,
-            description=f"Distance of wheel {i + 1} behind wheel 1, the leading one",
-        )
-        for i in range(1, wheels)
     ]
 
 

@@ -78,6 +78,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         self._made_from: tuple[Value, ...] | None = None
         self._started = False
         self._parameters = {v.name: v.start for v in self._declared if v.causality == "parameter"}
+        self._values_known: tuple[Value, ...] | None = None
         inputs = [v for v in self._declared if v.causality == "input"]
         self._inputs: FloatArray = np.array([v.start for v in inputs], dtype=float)
         self._outputs: dict[str, Sequence[float]] = {}
@@ -197,7 +198,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
             identity=self._identity,
             phase=self._phase,
             time=self._time,
-            parameters=tuple(self._parameters.values()),
+            parameters=self._values(),
             inputs=self._inputs.copy(),
             model=self._model.state if self._started else None,
         )
@@ -207,6 +208,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
             message = f"the state was saved by {state.identity}, this is {self._identity}"
             raise self._logged(ValueError(f"{message}; use states of the same build only"))
         self._parameters = dict(zip(self._parameters, state.parameters, strict=True))
+        self._values_known = state.parameters
         if state.phase != Phase.INSTANTIATED and self._made_from != state.parameters:
             self._make_model()
         self._phase, self._time = Phase(state.phase), state.time
@@ -263,7 +265,17 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
             message = f"{name} is fixed once the initialisation has ended; set it before"
             raise self._logged(ValueError(message))
         self._parameters[name] = value
+        self._values_known = None
         self._note_change()
+
+    def _values(self) -> tuple[Value, ...]:
+        """Values of all parameters; one tuple for all states until a parameter changes.
+
+        CPython 3.11 keeps up to 2000 freed tuples of 20 items without using them again.
+        """
+        if self._values_known is None:
+            self._values_known = tuple(self._parameters.values())
+        return self._values_known
 
     def _set_input(self, place: int, value: float) -> None:
         self._inputs[place] = value
@@ -279,13 +291,13 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         self._linear = bool(self._parameters[LINEAR_INPUTS.name])
         try:
             self._model = self.make_model(self._parameters)
-            self._made_from = tuple(self._parameters.values())
+            self._made_from = self._values()
         except (ValueError, RuntimeError) as error:
             raise self._logged(error) from error
 
     def _ensure_started(self) -> None:
         if not self._started:
-            if self._made_from != tuple(self._parameters.values()):
+            if self._made_from != self._values():
                 self._make_model()
             try:
                 self.start_model(self._model, self._time, self._groups)

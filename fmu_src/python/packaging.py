@@ -42,7 +42,13 @@ TRACK_MODULES = (
     "track_laws.py",
     "basis_cache.py",
 )
-VEHICLE_MODULES = ("vehicle_slave.py", "vehicle_variables.py", "excitation.py")
+VEHICLE_MODULES = (
+    "vehicle_slave.py",
+    "vehicle_variables.py",
+    "suspension_variables.py",
+    "suspended.py",
+    "excitation.py",
+)
 LIBRARIES = {"linux64": ".so", "win64": ".dll"}  # what pythonfmu provides
 
 

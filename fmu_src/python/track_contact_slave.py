@@ -14,7 +14,7 @@ from track_fmu.parameters import TrackParameters
 from vehicle_fmu.hertz_contact import HertzContact
 from vehicle_fmu.surfaces import Surfaces
 
-from .excitation import irregularity, make_flat
+from .excitation import irregularity, make_flat, out_of_roundness
 from .model_slave import ModelSlave
 from .track_contact_variables import declare_track_contact
 from .track_making import make_track
@@ -61,6 +61,7 @@ class TrackContactSlave(ModelSlave):
                 flat,
                 flat_table=table,
                 irregularity=irregularity(parameters["rail_irregularity"]),
+                out_of_roundness=out_of_roundness(parameters, wheels=self.wheels),
                 wheels=self.wheels,
                 radius=parameters["wheel_radius"],
             ),

@@ -40,7 +40,7 @@ def declare_track_contact(
     return [
         *track_parameters(structure, gauges),
         *vehicle_parameters("static_wheel_load", "wheel_radius", "hertz_coefficient"),
-        *excitation_parameters(),
+        *excitation_parameters(wheels),
         *position_inputs(structure, wheels),
         *_displacement_inputs(wheels),
         *_contact_outputs(wheels, positions),

@@ -50,6 +50,15 @@ def make_laws(
         If a parameter is wrong or a table cannot be used.
     """
     factors = support_factors(track.supports, parameters)
+    if parameters.get("endless", False) and (factors.pads_differ or factors.ballast_differs):
+        raise ValueError(
+            "track: endless is true, but its supports differ; leave one of the two out"
+        )
+    if track.sleeper != "rigid" and (factors.ballast_differs or not parameters["ballast_pulls"]):
+        raise ValueError(
+            "track: sleepers bend, but their ballast differs or does not pull; leave one of the "
+            "two out"
+        )
     return _ballast_law(track, parameters, factors), _pad_law(track, parameters, factors)
 
 

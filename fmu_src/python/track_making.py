@@ -36,6 +36,7 @@ def make_track(
         wheels=wheels,
         supports_per_wheel=parameters["supports_per_wheel"],
         initial_speed=parameters["initial_speed"],
+        endless=parameters["endless"],
         gauges=tuple(parameters[f"gauge[{k}].position"] for k in range(1, gauges + 1)),
     )
     reduced = _reduced_track(track, parameters["mode_pairs"], parameters["residual_flexibility"])

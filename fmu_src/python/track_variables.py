@@ -17,10 +17,25 @@ TABLE_1 = (
     ("rotary_inertia_per_length", "kg.m", "Rotary inertia of the rail per unit length"),
     ("pad_stiffness", "N/m", "Linear stiffness of a rail pad"),
     ("pad_damping", "N.s/m", "Linear viscous damping of a rail pad"),
-    ("sleeper_mass", "kg", "Mass of half a sleeper"),
+    ("sleeper_mass", "kg", "Mass of half a sleeper that is rigid"),
     ("sleeper_spacing", "m", "Distance between sleepers"),
     ("ballast_stiffness", "N/m", "Linear stiffness of ballast and subgrade under a rail seat"),
     ("ballast_damping", "N.s/m", "Linear viscous damping of ballast and subgrade"),
+)
+# likewise of sleepers that bend; those without a unit are no real numbers
+SLEEPER = (
+    ("sleeper", "", "What sleepers are: rigid, or beam on ballast spread evenly along it"),
+    ("sleeper_half_length", "m", "Distance of a beam sleeper's end from its centre"),
+    ("sleeper_rail_seat", "m", "Distance of a beam sleeper's rail seat from its centre"),
+    ("sleeper_bending_stiffness", "N.m2", "Bending stiffness EI of a beam sleeper"),
+    ("sleeper_shear_stiffness", "N", "Shear stiffness kAG of a beam sleeper"),
+    ("sleeper_mass_per_length", "kg/m", "Mass of a beam sleeper per unit length"),
+    (
+        "sleeper_rotary_inertia_per_length",
+        "kg.m",
+        "Rotary inertia of a beam sleeper per unit length",
+    ),
+    ("sleeper_elements", "", "Number of beam elements in half a beam sleeper"),
 )
 APPROACH = 3.875  # m before the middle of the track; the demonstration example starts at 12.7 m
 AXLE_BASE = 1.8  # m
@@ -57,10 +72,10 @@ def track_parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
             causality="parameter",
             unit=unit,
             start=getattr(structure, name),
-            minimum=0.0,
+            minimum=0.0 if unit else None,
             description=description,
         )
-        for name, unit, description in TABLE_1
+        for name, unit, description in (*TABLE_1, *SLEEPER)
     ]
     law, options = PolynomialBallast(), TrackOptions()
     variables.append(
@@ -109,6 +124,13 @@ def track_parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
             start=SPEED,
             description="Speed with which the static deflection moves along at the start: that of "
             "the wheels; 0 for wheels that stand",
+        ),
+        Variable(
+            name="endless",
+            causality="parameter",
+            start=False,
+            description="Whether the track goes on without end in both directions: supports are "
+            "then numbered from window_position on, which moves with the wheels by whole bays",
         ),
     ]
     variables += _law_parameters(structure)
@@ -219,13 +241,17 @@ def track_outputs(
         ("gauge", "bending_moment", "gauge_moment", gauges, "N.m", 1e4,
          "Bending moment of the rail at gauge {}, sagging positive"),
         ("sleeper", "displacement", "sleeper_displacement", supports, "m", 1e-3,
-         "Displacement of sleeper {}, downwards positive"),
+         "Displacement of sleeper {} at its rail seat, downwards positive"),
         ("pad", "force", "pad_force", supports, "N", 1e4,
          "Force in the rail pad on sleeper {}, compression positive"),
         ("ballast", "force", "ballast_force", supports, "N", 1e4,
          "Force on the ballast under sleeper {}, compression positive"),
+        ("sleeper", "bending_moment", "sleeper_moment", supports, "N.m", 1e3,
+         "Bending moment of sleeper {} at its rail seat, sagging positive; 0 where it is rigid"),
+        ("sleeper", "centre_bending_moment", "sleeper_centre_moment", supports, "N.m", 1e3,
+         "Bending moment of sleeper {} at its centre, sagging positive; 0 where it is rigid"),
     )  # fmt: skip
-    return [
+    outputs = [
         Variable(
             name=f"{part}[{i + 1}].{name}",
             causality="output",
@@ -239,6 +265,17 @@ def track_outputs(
         for part, name, group, count, unit, nominal, description in kinds
         for i in range(count)
     ]
+    window = Variable(
+        name="window_position",
+        causality="output",
+        group="window_position",
+        unit="m",
+        nominal=1.0,
+        description="Where the held part of an endless track begins: sleeper k stands k sleeper "
+        "spacings further on; 0 for an ordinary track",
+        initial_dependencies=known,
+    )
+    return [*outputs, window]
 
 
 def _middle(structure: TrackParameters) -> float:

@@ -56,7 +56,9 @@ UNITS: dict[str, dict[str, int]] = {
     "m": {"m": 1},
     "s": {"s": 1},
     "kg": {"kg": 1},
+    "rad": {"rad": 1},
     "m/s": {"m": 1, "s": -1},
+    "m/s2": {"m": 1, "s": -2},
     "N": {"kg": 1, "m": 1, "s": -2},
     "N.m": {"kg": 1, "m": 2, "s": -2},
     "N.m2": {"kg": 1, "m": 3, "s": -2},
@@ -68,7 +70,34 @@ UNITS: dict[str, dict[str, int]] = {
     "N.s/m": {"kg": 1, "s": -1},
     "kg/m": {"kg": 1, "m": -1},
     "kg.m": {"kg": 1, "m": 1},
+    "kg.m2": {"kg": 1, "m": 2},
 }
+
+
+def own_parameters(
+    owner: object, prefix: str, table: tuple[tuple[str, str, str], ...]
+) -> list[Variable]:
+    """Parameters with the start values that an object has.
+
+    Parameters
+    ----------
+    owner : object
+        Has an attribute of the name of every parameter.
+    prefix : str
+        What the parameters' names begin with.
+    table : tuple of (str, str, str)
+        Name, unit and description of each.
+    """
+    return [
+        Variable(
+            name=prefix + name,
+            causality="parameter",
+            unit=unit,
+            start=getattr(owner, name),
+            description=description,
+        )
+        for name, unit, description in table
+    ]
 
 
 def make_scalar(variable: Variable) -> Any:  # noqa: ANN401 - pythonfmu is not typed

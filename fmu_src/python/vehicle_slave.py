@@ -9,38 +9,46 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vehicle_fmu.parameters import VehicleParameters
+from vehicle_fmu.suspended_vehicle import SuspendedVehicle
 from vehicle_fmu.vehicle_model import VehicleModel
 
-from .excitation import irregularity, make_flat, speed_law
+from .excitation import irregularity, make_flat, out_of_roundness, speed_law, wheel_offsets
 from .model_slave import LINEAR_INPUTS, ModelSlave
+from .suspended import make_suspension, read_bodies
 from .vehicle_variables import VEHICLE, declare_vehicle
 
 FloatArray = NDArray[np.float64]
 
 
 class VehicleSlave(ModelSlave):
-    """Moving masses in Hertzian contact with the rail, with a wheel flat."""
+    """Moving masses or a suspended vehicle in Hertzian contact with the rail, with a wheel flat."""
 
-    description = "Moving wheel masses in Hertzian contact with the rail, with a wheel flat"
+    description = "Moving vehicle in Hertzian contact with the rail, with a wheel flat"
     wheels: ClassVar[int] = 2
+    bogies: ClassVar[int] = 1
 
     def declare(self) -> Sequence[Any]:
         """All variables; see `vehicle_variables`."""
-        return [*declare_vehicle(self.wheels), LINEAR_INPUTS]
+        return [*declare_vehicle(self.wheels, bogies=self.bogies), LINEAR_INPUTS]
 
     def make_model(self, parameters: Mapping[str, Any]) -> VehicleModel:
         """Vehicle of the given parameters; tables are read from their files."""
+        offsets = wheel_offsets(parameters, self.wheels)
         vehicle = VehicleParameters(
-            wheels=self.wheels, **{name: parameters[name] for name, _, _ in VEHICLE}
+            offsets=offsets, **{name: parameters[name] for name, _, _ in VEHICLE}
         )
         flat, table = make_flat(parameters)
-        return VehicleModel(
-            vehicle,
-            flat=flat,
-            flat_table=table,
-            speed=speed_law(parameters),
-            irregularity=irregularity(parameters["rail_irregularity"]),
-        )
+        rolling: dict[str, Any] = {
+            "flat": flat,
+            "flat_table": table,
+            "speed": speed_law(parameters),
+            "irregularity": irregularity(parameters["rail_irregularity"]),
+            "out_of_roundness": out_of_roundness(parameters, wheels=self.wheels),
+        }
+        suspension = make_suspension(parameters, offsets=offsets, bogies=self.bogies)
+        if suspension is None:
+            return VehicleModel(vehicle, **rolling)
+        return SuspendedVehicle(vehicle, suspension=suspension, **rolling)
 
     def start_model(
         self, model: VehicleModel, time: float, inputs: Mapping[str, FloatArray]
@@ -62,5 +70,8 @@ class VehicleSlave(ModelSlave):
 
     def read_model(self, model: VehicleModel, group: str) -> Sequence[float]:
         """Outputs by the names of the model."""
+        if not hasattr(VehicleModel, group):
+            suspended = model if isinstance(model, SuspendedVehicle) else None
+            return read_bodies(suspended, group, wheels=self.wheels, bogies=self.bogies)
         values: list[float] = getattr(model, group).tolist()
         return values

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from vehicle_fmu.parameters import FlatParameters, VehicleParameters
 
-from .variables import Variable
+from .suspension_variables import body_outputs, suspension_parameters
+from .variables import Variable, own_parameters
 
 WheelOutput = tuple[str, str, float, float | None, float | None, tuple[str, ...], str]
 """Name, unit, value of its type, minimum, nominal value, initial dependencies, description."""
@@ -13,17 +14,20 @@ WheelOutput = tuple[str, str, float, float | None, float | None, tuple[str, ...]
 VEHICLE = (
     ("wheel_mass", "kg", "Mass moving with each wheel, half the unsprung mass of a wheelset"),
     ("static_wheel_load", "N", "Total static wheel-rail force, the only weight in the model"),
-    ("axle_base", "m", "Distance between successive wheels"),
     ("wheel_radius", "m", "Rolling radius of the wheels"),
     ("hertz_coefficient", "N/m1.5", "Contact force over compression to the power 1.5"),
     ("initial_position", "m", "Track position of wheel 1, the leading one, at the start"),
     ("substep", "s", "Longest internal integration step"),
 )
+FLAT_POSITION = (
+    "Track position at which the centre of the flat meets the rail, and the angle zero of every "
+    "out-of-roundness"
+)
 FLAT = (
     ("length", "m", "Length of the flat along the tread"),
     ("depth", "m", "Largest drop of the tread; a chord's follows from its length"),
     ("wheel", "", "The wheel that has the flat, counted from 1"),
-    ("position", "m", "Track position at which the centre of the flat meets the rail"),
+    ("position", "m", FLAT_POSITION),
     ("periodic", "", "Whether the flat meets the rail at every turn, or once only"),
     ("rolled", "", "Whether the wheel rolls over the profile, or follows it as it is"),
 )
@@ -34,14 +38,31 @@ SHAPE = (
 SPEED = 40.0 / 3.6  # m/s, of the demonstration example
 
 
-def declare_vehicle(wheels: int) -> list[Variable]:
-    """Variables of a vehicle FMU with the given number of wheels."""
+def declare_vehicle(wheels: int, *, bogies: int = 1) -> list[Variable]:
+    """Variables of a vehicle FMU with the given number of wheels and bogies."""
     return [
         *speed_parameters(),
         *vehicle_parameters(*(name for name, _, _ in VEHICLE)),
-        *excitation_parameters(),
+        *offset_parameters(wheels),
+        *suspension_parameters(bogies),
+        *excitation_parameters(wheels),
         *_inputs(wheels),
         *_outputs(wheels),
+        *body_outputs(wheels, bogies),
+    ]
+
+
+def offset_parameters(wheels: int) -> list[Variable]:
+    """How far each wheel but the first runs behind it."""
+    return [
+        Variable(
+            name=f"wheel[{i + 1}].offset",
+            causality="parameter",
+            unit="m",
+            start=i * VehicleParameters().offsets[1],
+            description=f"Distance of wheel {i + 1} behind wheel 1, the leading one",
+        )
+        for i in range(1, wheels)
     ]
 
 
@@ -66,8 +87,8 @@ def speed_parameters() -> list[Variable]:
     ]
 
 
-def excitation_parameters() -> list[Variable]:
-    """Irregularity of the railhead and flat of a wheel."""
+def excitation_parameters(wheels: int) -> list[Variable]:
+    """Irregularity of the railhead, flat of a wheel and out-of-roundness of every wheel."""
     flat = FlatParameters(shape="haversine")
     return [
         Variable(
@@ -78,29 +99,25 @@ def excitation_parameters() -> list[Variable]:
             "[m], downwards positive; empty: a smooth rail",
         ),
         Variable(name="flat.shape", causality="parameter", start=flat.shape, description=SHAPE),
-        *_parameters(flat, "flat.", FLAT),
+        *own_parameters(flat, "flat.", FLAT),
+        *(
+            Variable(
+                name=f"wheel[{i + 1}].out_of_roundness",
+                causality="parameter",
+                start="",
+                description="Path of a CSV file with angle [rad] around the tread of wheel "
+                f"{i + 1}, from 0 to below 2 pi, and its drop [m], positive where metal is "
+                "missing; empty: a round wheel",
+            )
+            for i in range(wheels)
+        ),
     ]
 
 
 def vehicle_parameters(*names: str) -> list[Variable]:
     """Some of the parameters `VEHICLE`, in its order."""
     rows = tuple(row for row in VEHICLE if row[0] in names)
-    return _parameters(VehicleParameters(), "", rows)
-
-
-def _parameters(
-    owner: object, prefix: str, table: tuple[tuple[str, str, str], ...]
-) -> list[Variable]:
-    return [
-        Variable(
-            name=prefix + name,
-            causality="parameter",
-            unit=unit,
-            start=getattr(owner, name),
-            description=description,
-        )
-        for name, unit, description in table
-    ]
+    return own_parameters(VehicleParameters(), "", rows)
 
 
 def _inputs(wheels: int) -> list[Variable]:

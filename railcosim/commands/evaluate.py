@@ -29,8 +29,11 @@ def evaluate(
         float, typer.Option(metavar="HZ", help="Sampling frequency of spectra and detector.")
     ] = TEST_SITE_RATE,
     resolution: Annotated[
-        float, typer.Option(metavar="HZ", help="Distance of the lines of the spectrum.")
-    ] = 10.0,
+        float | None,
+        typer.Option(
+            metavar="HZ", help="Distance of the lines of the spectrum; 10, if the run allows."
+        ),
+    ] = None,
     bays: Annotated[int, typer.Option(metavar="N", help="Bays of the detector.")] = TEST_SITE_BAYS,
     bay_share: Annotated[
         float, typer.Option(metavar="X", help="Part of a bay in which it sees a wheel.")

@@ -13,6 +13,7 @@ from ..ballast_curves import compute_curves
 from ..builds import usual_build
 from ..errors import InputError
 from ..load_displacement import LARGEST_LOAD, LOADS, SecantLaw, equidistant_loads
+from ..notes import notes
 from ..output import FIGURE_SUFFIXES, check_writable, replacing, write_dataset, write_figure
 from ..paper_figures.captions import captions_text
 from ..paper_figures.making import (
@@ -34,7 +35,7 @@ from ..scenario import Scenario
 from ..scenario_file import read_scenario
 from ..secant_data import read_secant_data
 from ..sections import DEFAULT_SPEED_KMH
-from ..sweep import Study, run_study
+from ..sweep import Study, check_study, run_study
 from ..sweep.progress import sweep_bar
 from .endings import exit_codes, say
 from .options import FmuKind, Json, Overrides, Quiet
@@ -92,7 +93,10 @@ def figures(
             receptance=None if measured_receptance is None else read_measured(measured_receptance),
             ballast=None if measured_ballast is None else read_secant_data(measured_ballast),
         )
+        check_study(study, workers=workers)
         _check_folder(folder)
+        for note in notes(scenario):
+            say(f"note: {note}")
         with stdout_for_results():
             made, numbers = _make(
                 scenario, study, given, folder, build=build, workers=workers, quiet=quiet

@@ -30,7 +30,7 @@ from .stdout import stdout_for_results
 if TYPE_CHECKING:
     from ..report.convergence import Convergence, Runner
 
-LIBRARIES = ("plotly", "jinja2")
+LIBRARIES = ("plotly", "jinja2", "markupsafe")
 """What the page is made with."""
 
 

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from ..errors import InputError
-from ..output import DATA_SUFFIXES
+from ..result_file import check_file, read_netcdf, unreadable
 from .recording import Recording, from_array, from_columns, from_dataset
 
 if TYPE_CHECKING:
@@ -24,6 +24,9 @@ Source: TypeAlias = "Recording | xr.Dataset | NDArray[np.void] | str | Path"
 
 SEPARATORS = ",;\t"
 """What may stand between the columns of a CSV file."""
+
+REMEDY = "check what made it"
+"""What to do about a file that cannot be read."""
 
 
 def record(source: Source, name: str = "the result") -> Recording:
@@ -70,25 +73,20 @@ def read_recording(path: Path) -> Recording:
     }
     if path.suffix.lower() not in readers:
         raise InputError(
-            f"{path} ends with {path.suffix!r} but must end with one of "
-            f"{', '.join(DATA_SUFFIXES)}: convert it"
+            f"{path} ends with {path.suffix!r} but must end with one of {', '.join(readers)}: "
+            "convert it"
         )
-    if not path.is_file():
-        raise InputError(f"there is no file {path}: check the path")
+    check_file(path)
     try:
         return readers[path.suffix.lower()](path)
     except InputError:
         raise
     except (OSError, ValueError, KeyError) as error:
-        first = (str(error).splitlines() or [type(error).__name__])[0]
-        raise InputError(
-            f"{path} cannot be read as a {path.suffix} file ({first}): check what made it"
-        ) from error
+        raise unreadable(path, f"a {path.suffix} file", error, REMEDY) from error
 
 
 def _read_netcdf(path: Path) -> Recording:
-    with xr.open_dataset(path, engine="h5netcdf", decode_times=False) as stored:
-        return from_dataset(stored.load(), str(path))
+    return from_dataset(read_netcdf(path, REMEDY), str(path))
 
 
 def _read_csv(path: Path) -> Recording:

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 
 import xarray as xr
 
-from ..errors import InputError
+from ..passage_check import check_passage
 from ..run_record import programs
-from ..signals import SIGNALS
 from .gauges import gauge_histories
 from .settings import Evaluation, PartName
 from .spectrum import contact_force_spectrum
@@ -50,9 +49,6 @@ PARTS: Mapping[PartName, Part] = {
 }
 """How every part is made."""
 
-NEEDED = {signal.name for signal in SIGNALS} | {"time", "distance", "static_wheel_load"}
-"""What the result of a passage holds."""
-
 
 def evaluate(
     passage: xr.Dataset, settings: Evaluation | None = None, *, part: PartName | None = None
@@ -79,12 +75,7 @@ def evaluate(
     InputError
         For the result of something else or a run too short.
     """
-    missing = sorted(NEEDED - set(map(str, passage.variables)))
-    if missing or "scenario" not in passage.attrs:
-        raise InputError(
-            f"there is no {', '.join(missing) or 'scenario'} in this result, which is no passage: "
-            "evaluate what railcosim run --output FILE.nc wrote"
-        )
+    check_passage(passage, "this dataset")
     settings = settings or Evaluation()
     chosen = PARTS.values() if part is None else [PARTS[part]]
     made = {item.make: None for item in chosen}  # two parts are tables of the same record

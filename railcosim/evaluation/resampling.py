@@ -80,8 +80,7 @@ def resample(x: NDArray[np.float64], values: NDArray[np.float64], rate: float) -
     count = int(np.floor((x[-1] - x[0]) * rate * (1.0 + 1e-12))) + 1
     if count < FEWEST_SAMPLES:
         raise InputError(
-            f"the run is over in {x[-1] - x[0]:g}, which is less than one sample at a rate of "
-            f"{rate:g}: evaluate a longer run or sample faster"
+            "the run is shorter than one sample: evaluate a longer run or raise evaluation.rate"
         )
     taps = _low_pass()
     delay = len(taps) // 2 // FINER

@@ -14,6 +14,9 @@ TEST_SITE_RATE = 6000.0
 TEST_SITE_BAYS = 9
 """Instrumented bays there."""
 
+RESOLUTION = 10.0
+"""Distance of the lines of a spectrum where the run is long enough [Hz]."""
+
 UIC60_FOOT = 0.0809
 """Distance of the underside of a UIC60 rail's foot from the neutral axis [m].
 
@@ -42,8 +45,9 @@ class Evaluation:
     ----------
     rate : float
         Sampling frequency of spectra and of the wheel load detector [Hz].
-    resolution : float
-        Distance of the lines of a spectrum [Hz]; its segments last the inverse.
+    resolution : float, optional
+        Distance of the lines of a spectrum [Hz]; its segments last the inverse. `RESOLUTION`
+        without, or as fine as a shorter run allows.
     bays : int
         Bays of the wheel load detector, the struck bay in their middle.
     bay_share : float
@@ -59,7 +63,7 @@ class Evaluation:
     """
 
     rate: Annotated[float, Number(unit="Hz", at_least=100.0, at_most=1e5)] = TEST_SITE_RATE
-    resolution: Annotated[float, Number(unit="Hz", above=0.0)] = 10.0
+    resolution: Annotated[float | None, Number(unit="Hz", above=0.0)] = None
     bays: Annotated[int, Number(unit="bays", at_least=1)] = TEST_SITE_BAYS
     bay_share: Annotated[float, Number(above=0.0, at_most=1.0)] = 1.0
     gauge_depth: Annotated[float, Number(unit="m", at_least=-0.5, at_most=0.5)] = UIC60_FOOT

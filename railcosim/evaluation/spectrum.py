@@ -10,8 +10,8 @@ from scipy import signal
 
 from ..errors import InputError
 from ..signals import labels
-from .resampling import resample
-from .settings import Evaluation
+from .resampling import Samples, resample
+from .settings import RESOLUTION, Evaluation
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -40,18 +40,12 @@ def contact_force_spectrum(passage: xr.Dataset, settings: Evaluation | None = No
     Raises
     ------
     InputError
-        For a run that is shorter than a segment.
+        For a run that is shorter than a segment, or lines farther apart than the spectrum is long.
     """
     settings = settings or Evaluation()
     forces = passage["contact_force"].transpose("time", "wheel")
     samples = resample(passage["time"].to_numpy(), forces.to_numpy(), settings.rate)
-    length = round(settings.rate / settings.resolution)
-    if length > len(samples.x):
-        raise InputError(
-            f"evaluation.resolution is {settings.resolution:g} Hz but the run lasts only "
-            f"{samples.x[-1] - samples.x[0]:g} s, which resolves "
-            f"{settings.rate / len(samples.x):.3g} Hz: ask for a coarser resolution"
-        )
+    length = _segment(samples, settings)
     density = _welch(samples.values, settings.rate, length, "density")
     power = _welch(samples.values, settings.rate, length, "spectrum")
     frequency = np.arange(len(power)) * settings.rate / length
@@ -73,6 +67,25 @@ def contact_force_spectrum(passage: xr.Dataset, settings: Evaluation | None = No
         },
         attrs={"sampling_rate": settings.rate, "frequency_limit": samples.limit},
     )
+
+
+def _segment(samples: Samples, settings: Evaluation) -> int:
+    """Return the samples of a segment."""
+    finest = settings.rate / len(samples.x)
+    resolution = settings.resolution or max(RESOLUTION, finest)
+    if round(settings.rate / resolution) > len(samples.x):
+        raise InputError(
+            f"evaluation.resolution is {resolution:g} Hz but the run lasts only "
+            f"{samples.x[-1] - samples.x[0]:g} s, which resolves {finest:.3g} Hz: ask for a "
+            "coarser resolution"
+        )
+    if resolution > samples.limit:
+        raise InputError(
+            f"the lines of the spectrum are {resolution:g} Hz apart but it ends at "
+            f"{samples.limit:.3g} Hz: ask for a finer evaluation.resolution, or evaluate a longer "
+            "run"
+        )
+    return round(settings.rate / resolution)
 
 
 def _welch(

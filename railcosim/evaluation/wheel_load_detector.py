@@ -86,6 +86,8 @@ def _instrumented(scenario: Scenario, bays: int) -> NDArray[np.int_]:
     """Return the numbers of so many bays around the struck one, as far as there are."""
     first = scenario.struck_bay - (bays - 1) // 2
     numbers = np.arange(first, first + bays)
+    if scenario.track.endless:
+        return numbers
     return numbers[(numbers >= 1) & (numbers <= scenario.track.bays)]
 
 

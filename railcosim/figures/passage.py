@@ -62,14 +62,16 @@ def describe(scenario: Scenario) -> str:
         if flat.shape == "none"
         else f"{describe_flat(flat)} flat on wheel {flat.wheel}"
     )
-    rail = ", rail irregularity" if vehicle.rail_irregularity else ""
-    return f"{speed}, {wheel}{rail}, {scenario.track.ballast.replace('_', '-')} track"
+    is_uneven = vehicle.rail_irregularity or scenario.irregularity
+    rail = ", rail irregularity" if is_uneven else ""
+    treads = ", wheel defects" if scenario.wheel_defect else ""
+    return f"{speed}, {wheel}{treads}{rail}, {scenario.track.ballast.replace('_', '-')} track"
 
 
 def strikes_once(scenario: Scenario) -> bool:
     """Whether all that happens is one strike of the flat."""
     flat = scenario.flat
-    return flat.shape != "none" and not flat.periodic and not scenario.vehicle.rail_irregularity
+    return flat.shape != "none" and not flat.periodic and scenario.is_smooth
 
 
 def describe_flat(flat: Flat) -> str:

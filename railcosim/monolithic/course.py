@@ -77,9 +77,7 @@ def course_of(scenario: Scenario) -> Course:
     law = speed_law(scenario.vehicle)
     flat, table = read_flat(scenario)
     vehicle = scenario.vehicle
-    starts: NDArray[np.float64] = scenario.start_position - vehicle.axle_base * np.arange(
-        vehicle.wheels, dtype=np.float64
-    )
+    starts: NDArray[np.float64] = scenario.start_position - np.array(vehicle.offsets)
     begins, ends = 0.0, 0.0
     if flat.shape == "table" and table is not None:
         begins, ends = float(table.distance[0]), float(table.distance[-1])

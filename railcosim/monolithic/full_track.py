@@ -13,8 +13,9 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from track_fmu.assembly import TrackMatrices, to_banded
 from track_fmu.reduction import moment_operators
+from track_fmu.sleeper_observation import sleeper_operators
 
-from .linear_track import Feedthrough, Matrix, Ports
+from .linear_track import BentSleepers, Feedthrough, Matrix, Ports
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -56,6 +57,7 @@ class FullTrack:
         )
         self._dofs = np.hstack([matrices.numbering.rail[:-1], matrices.numbering.rail[1:]])
         self._moments = moment_operators(parameters, matrices)
+        self._sleepers = sleeper_operators(parameters, matrices)
 
     @property
     def _size(self) -> int:
@@ -113,3 +115,23 @@ class FullTrack:
         del loads
         incidence = self._matrices.pad_incidence.T
         return incidence @ states[: self._size], incidence @ rates[: self._size]
+
+    def bent_sleepers(
+        self,
+        states: NDArray[np.float64],
+        rates: NDArray[np.float64],
+        loads: NDArray[np.float64],
+    ) -> BentSleepers:
+        """See `LinearTrack.bent_sleepers`: moments from the forces at an end of an element."""
+        own = self._sleepers
+        displacement, velocity = states[: self._size], states[self._size :]
+        spread = own.spread @ loads[len(loads) - own.spread.shape[1] :]
+        inertia = own.inertial @ rates[self._size :]
+        seen = own.static @ displacement + own.viscous @ velocity + inertia - spread
+        at_seat, at_centre, mean = np.split(np.asarray(seen), 3)
+        return BentSleepers(
+            seat=displacement[self._matrices.numbering.sleeper],
+            mean=mean,
+            mean_rate=np.asarray(own.static @ velocity)[2 * len(mean) :],
+            moments=(at_seat, at_centre),
+        )

@@ -53,6 +53,23 @@ class Feedthrough(NamedTuple):
     mobility: NDArray[np.float64]
 
 
+class BentSleepers(NamedTuple):
+    """What is seen of sleepers that bend, shape (supports, times) each.
+
+    Attributes
+    ----------
+    seat, mean, mean_rate : ndarray
+        Displacement of the rail seats and mean deflection [m], and the rate of the latter [m/s].
+    moments : tuple of ndarray
+        Bending moments at the rail seats and at the centres [N m], sagging positive.
+    """
+
+    seat: NDArray[np.float64]
+    mean: NDArray[np.float64]
+    mean_rate: NDArray[np.float64]
+    moments: tuple[NDArray[np.float64], NDArray[np.float64]]
+
+
 class LinearTrack(Protocol):
     """The linear track of Eq. (2) in coordinates of its own choice.
 
@@ -136,4 +153,13 @@ class LinearTrack(Protocol):
         loads: NDArray[np.float64],
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return compression [m] and its rate [m/s] of every pad, shape (supports, times) each."""
+        ...
+
+    def bent_sleepers(
+        self,
+        states: NDArray[np.float64],
+        rates: NDArray[np.float64],
+        loads: NDArray[np.float64],
+    ) -> BentSleepers:
+        """Return what there is to see of sleepers that bend."""
         ...

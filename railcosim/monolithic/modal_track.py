@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .linear_track import Feedthrough, Matrix, Ports
+from .linear_track import BentSleepers, Feedthrough, Matrix, Ports
 
 if TYPE_CHECKING:
     import scipy.sparse as sp
@@ -119,6 +119,27 @@ class ModalTrack:
         """See `LinearTrack.pads`; the rate is that of the retained modes, Eq. (22)."""
         flexibility = self._track.flexibility[self._track.pad_rows, : len(loads)]
         return self._pads @ states + flexibility @ loads, self._pads @ rates
+
+    def bent_sleepers(
+        self,
+        states: NDArray[np.float64],
+        rates: NDArray[np.float64],
+        loads: NDArray[np.float64],
+    ) -> BentSleepers:
+        """See `LinearTrack.bent_sleepers`; the rate is that of the retained modes."""
+        track = self._track
+        output = self._ports(track.sleeper_shape).output
+        seen = output @ states + track.sleeper_flexibility[:, : len(loads)] @ loads
+        at_seat, at_centre, mean = np.split(np.asarray(seen), 3)
+        # a rail seat moves as the rail above it less the deformation of the pad between them
+        shape = track.shape[track.seat_rows] - track.shape[track.pad_rows]
+        flexibility = track.flexibility[track.seat_rows] - track.flexibility[track.pad_rows]
+        return BentSleepers(
+            seat=self._ports(shape).output @ states + flexibility[:, : len(loads)] @ loads,
+            mean=mean,
+            mean_rate=np.asarray(output @ rates)[2 * len(mean) :],
+            moments=(at_seat, at_centre),
+        )
 
     def _wheel_shape(self, elements: NDArray[np.intp], weights: NDArray[np.float64]) -> Complex:
         return np.asarray(np.einsum("wk,wks->ws", weights, self._track.shape[_rows(elements)]))

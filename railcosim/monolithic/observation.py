@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..signals import SLEEPER_SIGNALS
 from .moments import WheelLoads, moments_between
 
 if TYPE_CHECKING:
@@ -16,6 +17,10 @@ if TYPE_CHECKING:
     from .system import CoupledSystem, Instant
 
     Array = NDArray[np.float64]
+
+
+SLEEPER_MOMENTS = tuple(signal.name for signal in SLEEPER_SIGNALS)
+"""At rail seats and centres."""
 
 
 class Observer:
@@ -75,13 +80,18 @@ def _observe(
     level = _columns([now.level for now in instants])
     own, own_rate = state[parts[0]], rates[parts[0]]
     positions = _columns([system.course.positions(time) for time in times])
-    sleeper_rate = track.sleepers.output @ own_rate
     gap = displacement[:w] - level
     loads, wheel_loads = _loads(system, times, force, positions)
     pad, pad_rate = track.pads(own, own_rate, loads)
     under, at_gauges = _moments(system, gauges, (own, own_rate, loads), wheel_loads)
     parameters = track.parameters
-    return {
+    seats = beds = displacement[w:]
+    bed_rate = track.sleepers.output @ own_rate
+    of_sleepers: dict[str, Array] = {}
+    if parameters.sleeper == "beam":
+        seats, beds, bed_rate, moments = track.bent_sleepers(own, own_rate, loads)
+        of_sleepers = dict(zip(SLEEPER_MOMENTS, moments, strict=True))
+    return of_sleepers | {
         "contact_force": force[:w],
         "gap": gap,
         "in_contact": (gap < 0.0).astype(float),
@@ -92,10 +102,10 @@ def _observe(
         "rail_velocity": _velocities(system, times, states, instants, own_rate),
         "residual_displacement": _columns([now.at_once[:w] for now in instants]),
         "bending_moment_under_wheel": under,
-        "sleeper_displacement": displacement[w:],
+        "sleeper_displacement": seats,
         "pad_force": parameters.pad_stiffness * pad + parameters.pad_damping * pad_rate,
-        "ballast_force": parameters.ballast_stiffness * displacement[w:]
-        + parameters.ballast_damping * sleeper_rate
+        "ballast_force": parameters.ballast_stiffness * beds
+        + parameters.ballast_damping * bed_rate
         - force[w:],
         "bending_moment": at_gauges,
     }

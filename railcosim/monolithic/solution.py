@@ -103,6 +103,21 @@ def solve(
         if value not in get_args(kind):
             raise InputError(f"{name} is {value!r} but must be one of {', '.join(get_args(kind))}")
     require_paper_laws(scenario, "the monolithic solution")
+    if scenario.track.endless:
+        raise InputError(
+            "track.endless is true but this solution holds the whole track: leave it out, with as "
+            "many track.bays as the run takes"
+        )
+    if scenario.vehicle.is_suspended or scenario.suspension.tread_mass > 0.0:
+        raise InputError(
+            "the monolithic solution knows rigid wheels under their loads only: leave "
+            "vehicle.model at masses and suspension.tread_mass at 0, or run the co-simulation"
+        )
+    if scenario.irregularity or scenario.wheel_defect:
+        raise InputError(
+            "the monolithic solution knows the flat and vehicle.rail_irregularity only: leave "
+            "[[irregularity]] and [[wheel_defect]] out, or run the co-simulation"
+        )
     check_profiles(scenario)
     with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
         system, state = make_system(scenario, model=model, contact_form=contact_form)

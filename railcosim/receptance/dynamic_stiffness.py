@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import scipy.linalg as la
+import scipy.sparse as sp
 
-from track_fmu.assembly import HALF_BANDWIDTH, assemble, to_banded
+from track_fmu.assembly import assemble, half_bandwidth, to_banded
 
 from ..errors import RunError
 
@@ -33,20 +34,22 @@ class DynamicStiffness:
 
     def __init__(self, parameters: TrackParameters, tangent: BallastTangent | None = None) -> None:
         self.matrices = assemble(parameters)
-        self._stiffness, self._damping, self._mass = (
-            _both_triangles(to_banded(matrix))
-            for matrix in (self.matrices.stiffness, self.matrices.damping, self.matrices.mass)
-        )
+        stiffness, damping = self.matrices.stiffness, self.matrices.damping
         if tangent is not None:
-            sleepers = self.matrices.numbering.sleeper
-            self._stiffness[HALF_BANDWIDTH, sleepers] += tangent.stiffness
-            self._damping[HALF_BANDWIDTH, sleepers] += tangent.damping
+            beds = self.matrices.ballast_incidence
+            stiffness = stiffness + beds @ sp.diags_array(tangent.stiffness) @ beds.T
+            damping = damping + beds @ sp.diags_array(tangent.damping) @ beds.T
+        self._width = half_bandwidth(stiffness, damping, self.matrices.mass)
+        self._stiffness, self._damping, self._mass = (
+            _both_triangles(to_banded(matrix, self._width))
+            for matrix in (stiffness, damping, self.matrices.mass)
+        )
 
     def load(self, point: TrackPoint) -> FloatArray:
         """Forces on the degrees of freedom, shape (N,), of a unit force at a point."""
         force = np.zeros(self.matrices.numbering.size)
         free = point.dofs >= 0
-        force[point.dofs[free]] = point.shape[free]
+        force[point.dofs[free]] = point.weights[free]
         return force
 
     def solve(self, frequency: float, forces: FloatArray) -> ComplexArray:
@@ -74,7 +77,7 @@ class DynamicStiffness:
             matrix = self._stiffness + (1j * omega) * self._damping - omega**2 * self._mass
             try:
                 answer = la.solve_banded(
-                    (HALF_BANDWIDTH, HALF_BANDWIDTH),
+                    (self._width, self._width),
                     matrix,
                     forces.astype(complex),
                     overwrite_ab=True,

@@ -75,6 +75,11 @@ def _loaded_beds(track: ReducedTrack, tangent: BallastTangent | None) -> list[Tr
         return []
     first = track.ballast_rows.start
     return [
-        TrackPoint(rows=np.array([first + bed]), dofs=np.array([-1]), shape=np.ones(1))
+        TrackPoint(
+            rows=np.array([first + bed]),
+            shape=np.ones(1),
+            dofs=np.zeros(0, dtype=np.intp),
+            weights=np.zeros(0),
+        )
         for bed in tangent.loaded
     ]

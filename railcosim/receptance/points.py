@@ -1,4 +1,4 @@
-"""Where the track is loaded and where its response is taken: on the rail or on a sleeper."""
+"""Where the track is loaded and where its response is taken: on the rail or at a rail seat."""
 
 from __future__ import annotations
 
@@ -60,17 +60,17 @@ class TrackPoint:
 
     Attributes
     ----------
-    rows : (k,) int array
-        Coordinates of the reduced track that it depends on.
-    dofs : (k,) int array
-        The same as degrees of freedom of the finite elements, -1 where the rail is clamped.
-    shape : (k,) float array
-        Their weights; also how a unit force there loads them.
+    rows, shape : (k,) int array, (k,) float array
+        Coordinates of the reduced track that it depends on, and their weights; also how a unit
+        force there loads them.
+    dofs, weights : (d,) int array, (d,) float array
+        The same in degrees of freedom of the finite elements, -1 where the rail is clamped.
     """
 
     rows: IntArray
-    dofs: IntArray
     shape: FloatArray
+    dofs: IntArray
+    weights: FloatArray
 
 
 def parse_place(text: str, option: str) -> Place:
@@ -112,11 +112,14 @@ def track_point(parameters: TrackParameters, place: Place) -> TrackPoint:
                 f"{parameters.supports}, choose one of them or raise track.bays"
             )
         number = place.sleeper - 1
-        first = 2 * (parameters.elements + 1)
+        # a rail seat moves as the rail above it less the deformation of the pad between them
+        rail = 2 * int(numbering.support_node[number])
+        pad = 2 * (parameters.elements + 1) + parameters.supports + number
         return TrackPoint(
-            rows=np.array([first + number]),
+            rows=np.array([rail, pad]),
+            shape=np.array([1.0, -1.0]),
             dofs=numbering.sleeper[number : number + 1],
-            shape=np.ones(1),
+            weights=np.ones(1),
         )
     assert place.position is not None
     if not 0.0 < place.position < parameters.length:
@@ -127,6 +130,7 @@ def track_point(parameters: TrackParameters, place: Place) -> TrackPoint:
     point = locate(parameters, place.position)
     return TrackPoint(
         rows=np.arange(point.rows.start, point.rows.stop),
-        dofs=numbering.rail[point.element : point.element + 2].ravel(),
         shape=point.shape,
+        dofs=numbering.rail[point.element : point.element + 2].ravel(),
+        weights=point.shape,
     )

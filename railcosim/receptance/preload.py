@@ -75,7 +75,7 @@ def ballast_tangent(
     except RuntimeError as error:
         raise RunError(str(error)) from error
     supports = np.arange(track.parameters.supports)
-    sunk = model.observe().sleeper_displacement
+    sunk = model.observe().ballast_deformation
     near = np.isin(supports, nearest_supports(track.parameters, place, supports_per_wheel))
     rest = np.zeros_like(sunk)
     return BallastTangent(

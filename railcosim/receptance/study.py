@@ -15,6 +15,7 @@ from track_fmu.eigensolver import EigenvalueError
 from track_fmu.reduction import reduce_track
 
 from ..errors import InputError, RunError
+from ..load_displacement import HEAVIEST
 from ..track_data import ballast_law, require_paper_laws, track_parameters
 from .dynamic_stiffness import DynamicStiffness
 from .modal import modal_receptance
@@ -71,8 +72,10 @@ class ReceptanceStudy:
         require_paper_laws(self.scenario, "a receptance")
         for place in (self.load, self.response):
             track_point(self._parameters, place)
-        if not (np.isfinite(self.preload) and self.preload >= 0.0):
-            raise InputError(f"the preload is {self.preload:g} N but must be at least 0 N")
+        if not 0.0 <= self.preload <= HEAVIEST:
+            raise InputError(
+                f"the preload is {self.preload:g} N but must be from 0 to {HEAVIEST:g} N"
+            )
         if self.preload > 0.0 and self.scenario.track.ballast == "linear":
             raise InputError(
                 f"a preload of {self.preload:g} N changes nothing on a linear track: leave it out "

@@ -48,9 +48,11 @@ def animate(passage: xr.Dataset) -> dict[str, Any] | None:
     dict or None
         Packed arrays, those over frames in rows of one frame; lengths in metres, displacements in
         millimetres, forces in kilonewtons; None where the run ended before there was anything to
-        show.
+        show, and on an endless track, of which a result holds no whole rail.
     """
     scenario = from_toml(passage.attrs["scenario"])
+    if scenario.track.endless:
+        return None
     times = frame_times(passage, whole=not strikes_once(scenario))
     if times.size < SHORTEST:
         return None

@@ -43,8 +43,13 @@ def sentences(scenario: Scenario) -> list[str]:
         if track.ballast == "state_dependent"
         else "linear ballast"
     )
+    bogies = (
+        f" in {vehicle.bogies} bogies, {vehicle.bogie_distance:g} m apart,"
+        if vehicle.bogies > 1
+        else ""
+    )
     wheels = (
-        f"{vehicle.wheels} wheels, {vehicle.axle_base:g} m apart,"
+        f"{vehicle.wheels} wheels, {vehicle.axle_base:g} m apart{bogies or ','}"
         if vehicle.wheels > 1
         else "One wheel"
     )
@@ -67,7 +72,12 @@ def sentences(scenario: Scenario) -> list[str]:
         f"The run covers {scenario.run.approach:g} m before and {scenario.run.departure:g} m after "
         "that place."
     )
-    return [what, _flat_sentence(scenario), way]
+    above = (
+        ["Bogie frames and a car body are above them, on primary and secondary suspension."]
+        if vehicle.is_suspended
+        else []
+    )
+    return [what, *above, _flat_sentence(scenario), way]
 
 
 def _flat_sentence(scenario: Scenario) -> str:

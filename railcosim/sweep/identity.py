@@ -18,7 +18,7 @@ from fmu_src.archive import content_hash
 from ..errors import InputError
 from ..fields import holds_file
 from ..run_record import programs
-from ..scenario_file import SECTIONS
+from ..scenario_file import LISTS, SECTIONS
 
 if TYPE_CHECKING:
     from .case import Case
@@ -83,14 +83,19 @@ def content_key(case: Case, fingerprints: Fingerprints) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
-def files_of(case: Case) -> dict[str, str]:
-    """Return the paths of the files that the scenario of a case names, by ``section.key``."""
+def files_of(case: Case) -> dict[tuple[str | int, ...], str]:
+    """Return the paths of the files that a case names, by section, number of the table, key."""
+    parts: dict[tuple[str | int, ...], Any] = {
+        (name,): getattr(case.scenario, name) for name in SECTIONS
+    }
+    for name in LISTS:
+        parts |= {(name, k): row for k, row in enumerate(getattr(case.scenario, name))}
     return {
-        f"{name}.{item.name}": value
-        for name, kind in SECTIONS.items()
-        for item in fields(kind)
-        if isinstance(value := getattr(getattr(case.scenario, name), item.name), str)
-        and holds_file(kind, item.name, value)
+        (*place, item.name): value
+        for place, part in parts.items()
+        for item in fields(part)
+        if isinstance(value := getattr(part, item.name), str)
+        and holds_file(type(part), item.name, value)
     }
 
 
@@ -100,7 +105,7 @@ def programs_in_use() -> dict[str, str]:
     root = Path(__file__).parents[1]
     found = {
         f"railcosim/{path.relative_to(root)}": path
-        for folder in (root, Path(__file__).parent)
+        for folder in (root, root / "irregularity", Path(__file__).parent)
         for path in folder.glob("*.py")
     }
     for package in (track_fmu, vehicle_fmu, fmu_src, orchestrator):
@@ -117,7 +122,9 @@ def programs_in_use() -> dict[str, str]:
 def _described(case: Case, fingerprints: Fingerprints) -> dict[str, Any]:
     """Return every key of the resolved scenario, files by their content."""
     keys = asdict(case.resolved)
-    for name, path in files_of(case).items():
-        section, _, key = name.partition(".")
-        keys[section][key] = fingerprints.of(path)
+    for (*place, key), path in files_of(case).items():
+        part: Any = keys
+        for name in place:
+            part = part[name]
+        part[key] = fingerprints.of(path)
     return keys

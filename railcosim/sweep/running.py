@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..builds import build_for
-from .cluster import local_client, remote_client
+from .cluster import check_means, local_client, remote_client
 from .engine import Job, run_jobs
 from .plan import first_of_each_fmu, make_plan
 from .result import assemble_study
@@ -98,7 +98,7 @@ def run_study(
     RunError
         For what stops every case: FMUs that cannot be built, a store that cannot be written.
     """
-    plan = make_plan(read_study(study) if isinstance(study, Path) else study)
+    plan = check_study(study, workers=workers)
     cases = open_store(store)
     missing = _missing(plan, cases, retry_failed=retry_failed)
     progress = SweepProgress(len(plan.order), len(plan.order) - len(missing), 0, 0)
@@ -123,6 +123,19 @@ def run_study(
             jobs = (Job(plan.keys[index], plan.study.case(index)) for index in missing)
             run_jobs(connected, jobs, cases, settled)
     return assemble_study(plan, cases)
+
+
+def check_study(study: Study | Path, *, workers: int | None = None) -> Plan:
+    """Check every case, and that there can be workers, before anything is made or run.
+
+    Raises
+    ------
+    InputError
+        For a study or a case that cannot be used, less than one worker, or missing libraries.
+    """
+    plan = make_plan(read_study(study) if isinstance(study, Path) else study)
+    check_means(workers)
+    return plan
 
 
 def _missing(plan: Plan, store: Store, *, retry_failed: bool) -> Collection[int]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from copy import deepcopy
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -116,7 +117,7 @@ class Study:
         place = [int(n) for n in np.unravel_index(index, self.shape)]
         swept = dict(self.rows[place.pop(0)]) if self.rows else {}
         swept |= {key: self.grid[key][n] for key, n in zip(self.grid, place, strict=True)}
-        values = {section: dict(keys) for section, keys in self.base.values.items()}
+        values = deepcopy(self.base.values)
         options = dict(self.base.options)
         try:
             for name, value in swept.items():

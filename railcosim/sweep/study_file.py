@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
-from ..scenario_file import no_values, put_all
+from ..scenario_file import LISTS, no_values, put_all
+from ..table_lists import numbered
 from ..toml_text import parse_toml, read_text
 from .histories import Keep
 from .random_rows import random_rows
@@ -86,6 +87,7 @@ def _base(given: dict[str, Any], text: str, folder: Path) -> Base:
     if path is not None:
         file = folder / Path(path).expanduser()
         put_all(values, parse_toml(text, f"scenario {file}"), file.parent)
+    put_all(values, {name: given.pop(name) for name in LISTS if name in given}, folder)
     for name, value in _flat(given, "base", folder).items():
         place_key(values, options, name, value, folder)
     return Base(values=values, options=options)
@@ -128,7 +130,8 @@ def _flat(tables: Mapping[str, Any], where: str, folder: Path) -> dict[str, Any]
         for key, value in _as_table(keys, f"{where}.{section}").items()
     }
     for name in flat:
-        place_key(no_values(), {}, name, None, folder)
+        if numbered(name.partition(".")[0]) is None:  # those are checked with the case they are of
+            place_key(no_values(), {}, name, None, folder)
     return flat
 
 

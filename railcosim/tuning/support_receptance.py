@@ -49,9 +49,8 @@ class SupportReceptance:
     def evaluate(self, values: FloatArray) -> tuple[ComplexArray, ComplexArray]:
         """Receptance and its derivatives at given values of `SUPPORT_PARAMETERS`.
 
-        The derivative of ``H = o^T Z^-1 f`` by a stiffness is ``-(Z^-1 o)^T dZ (Z^-1 f)``, a
-        product of the deformations of the springs under a force at either point; by a damping it is
-        ``i omega`` times as much.
+        The derivative of ``H = o^T Z^-1 f`` by a stiffness is ``-(Z^-1 o)^T dZ (Z^-1 f)``, by a
+        damping ``i omega`` times as much.
 
         Parameters
         ----------
@@ -68,14 +67,14 @@ class SupportReceptance:
         changed: dict[str, Any] = dict(zip(SUPPORT_PARAMETERS, map(float, values), strict=True))
         track = DynamicStiffness(replace(self._parameters, **changed))
         forces = np.stack([track.load(point) for point in self._points], axis=1)
-        pads, beds = track.matrices.pad_incidence.T, track.matrices.ballast_incidence.T
+        pads = track.matrices.pad_incidence
+        springs = ((slice(0, 2), pads @ pads.T), (slice(2, 4), track.matrices.beds))
         receptance = np.empty(len(self._frequencies), dtype=complex)
         derivatives = np.empty((len(self._frequencies), len(values)), dtype=complex)
         for k, frequency in enumerate(self._frequencies):
             displacement = track.solve(float(frequency), forces)
             receptance[k] = forces[:, 1] @ displacement[:, 0]
             rate = np.array([1.0, 2j * np.pi * frequency])
-            for part, springs in ((slice(0, 2), pads), (slice(2, 4), beds)):
-                deformation = np.asarray(springs @ displacement)
-                derivatives[k, part] = -(deformation[:, 0] @ deformation[:, 1]) * rate
+            for part, matrix in springs:
+                derivatives[k, part] = -(displacement[:, 0] @ (matrix @ displacement[:, 1])) * rate
         return receptance, derivatives

@@ -17,7 +17,8 @@ def make_passage():
         distance = np.asarray(distance, dtype=float)
         times = (distance - distance[0]) / scenario.vehicle.constant_speed
         flat = scenario.flat.wheel - 1
-        base = scenario.vehicle.axle_base * (flat - np.arange(scenario.vehicle.wheels))
+        offsets = np.array(scenario.vehicle.offsets)
+        base = offsets[flat] - offsets
         values = {
             signal.name: np.zeros((times.size, count(scenario)[signal.dim])) for signal in SIGNALS
         }
@@ -35,6 +36,8 @@ def make_passage():
             series=values,
             attempts=attempts | {"cause": np.array(["accepted", "error"])},
             attributes={
+                "fmus": "native",
+                "contact": "vehicle",
                 "complete": int(complete),
                 "stop_reason": "it was interrupted",
                 "simulated_time": float(times[-1]),

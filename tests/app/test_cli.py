@@ -268,3 +268,17 @@ def test_a_passage_that_fails_keeps_its_result_and_can_be_replayed(tmp_path):
     assert numbers["reproduced"]
     assert not numbers["from_start"]
     assert {step["participant"] for step in numbers["steps"]} == {"vehicle", "track"}
+
+
+@pytest.mark.parametrize("ctrl_c", [signal.SIG_IGN, signal.default_int_handler])
+def test_sigterm_ends_a_run_also_where_ctrl_c_is_ignored(monkeypatch, ctrl_c):
+    """A shell starts what stands before & with Ctrl-C ignored."""
+    monkeypatch.setattr(cli, "app", lambda *_, **__: signal.raise_signal(signal.SIGTERM))
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        signal.signal(signal.SIGINT, ctrl_c)
+        with pytest.raises(KeyboardInterrupt):
+            cli.main()
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

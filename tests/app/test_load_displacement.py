@@ -114,9 +114,11 @@ def test_the_loss_factor_of_a_viscous_damper_is_that_of_its_loop():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: SecantLaw(slope=-1.0), "slope .* -1 1/m but must be at least 0"),
-        (lambda: SecantLaw(slope=float("nan")), "at least 0"),
-        (lambda: SecantLaw(stiffness=0.0), "0 N/m but must be above 0"),
+        (lambda: SecantLaw(slope=-1.0), "slope .* -1 1/m but must be from 0 to"),
+        (lambda: SecantLaw(slope=float("nan")), "from 0 to 1e.09 1/m"),
+        (lambda: SecantLaw(stiffness=0.0), "0 N/m but must be from 1 to"),
+        (lambda: fit_polynomial(SecantLaw(slope=1e300), equidistant_loads()), "1e.300 1/m"),
+        (lambda: equidistant_loads(1e300), "at most 1e.07 N"),
         (lambda: equidistant_loads(0.0), "largest load is 0 N"),
         (lambda: equidistant_loads(60e3, 2), "3 coefficients"),
         (lambda: equidistant_loads(60e3, 10**6), "choose 3 to"),

@@ -8,8 +8,19 @@ from railcosim.scenario_file import read_scenario
     ("overrides", "parts"),
     [
         ((), []),
-        (("flat.shape=chord",), []),
-        (("flat.shape=chord", "flat.depth=1e-3"), ["a chord of 100 mm is 2.78 mm deep"]),
+        (("flat.shape=chord",), ["the chord has a kink"]),
+        (
+            ("flat.shape=chord", "flat.depth=1e-3"),
+            ["a chord of 100 mm is 2.78 mm deep", "the frequencies of its 150 mode pairs"],
+        ),
+        (("flat.shape=cusp",), ["take track.mode_pairs=400"]),
+        (("flat.shape=parabola", "track.bays=60"), ["track.mode_pairs=480"]),
+        (("flat.shape=cusp", "track.mode_pairs=400"), []),
+        (
+            ("flat.shape=cusp", "track.elements_per_bay=1", "track.mode_pairs=147"),
+            [],
+        ),  # all of them
+        (("flat.shape=none",), []),
         (("master.step=1e-3",), ["steps up to 0.001 s do not resolve"]),
         (("master.max_step=1e-4",), []),
     ],

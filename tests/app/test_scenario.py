@@ -73,6 +73,18 @@ def test_what_does_not_fit_together_is_refused_with_value_limit_and_remedy(secti
         assert part in message
 
 
+def test_an_endless_track_has_no_end():
+    far = Scenario(
+        track=Track(endless=True), flat=Flat(position=5000.0), run=Run(departure=10_000.0)
+    )
+    assert far.struck_bay == 7693
+    assert far.first_bay == 7693 - 26
+    assert far.gauge_positions[0] == pytest.approx(7692.5 * 0.65, abs=1e-9)
+    assert Scenario(track=Track(endless=True)).first_bay == 0
+    with pytest.raises(InputError, match=r"at least 5\.7 m"):
+        Scenario(track=Track(endless=True), flat=Flat(position=1.0))
+
+
 @pytest.mark.parametrize("section", ["approach", "departure"])
 def test_following_the_remedy_of_a_run_that_is_too_long_is_accepted(section):
     with pytest.raises(InputError) as caught:

@@ -135,7 +135,7 @@ def test_a_file_of_something_else_is_refused(suffix, tmp_path):
 
 
 def test_a_file_of_an_unknown_kind_or_none_is_refused(tmp_path):
-    with pytest.raises(InputError, match=r"must end with one of \.nc, \.csv, \.parquet"):
+    with pytest.raises(InputError, match=r"must end with one of \.nc, \.csv, \.parquet: "):
         read_recording(tmp_path / "result.mat")
     with pytest.raises(InputError, match="check the path"):
         read_recording(tmp_path / "result.nc")

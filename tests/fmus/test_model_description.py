@@ -52,7 +52,7 @@ def test_connected_as_they_are_they_begin_alike(fmus):
     assert track["wheel[1].position"] == vehicle["initial_position"]
     assert track["wheel[1].contact_force"] == vehicle["static_wheel_load"]
     behind = float(track["wheel[1].position"]) - float(track["wheel[2].position"])
-    assert behind == pytest.approx(float(vehicle["axle_base"]), abs=1e-12)
+    assert behind == pytest.approx(float(vehicle["wheel[2].offset"]), abs=1e-12)
 
 
 def test_outputs_depend_on_inputs_through_steps_only(fmus):

@@ -60,7 +60,7 @@ def test_the_track_fmu_is_the_track_model(open_fmu, small_fmus):
 def test_the_vehicle_fmu_is_the_vehicle_model(open_fmu, small_fmus):
     slave = open_small("vehicle", open_fmu, small_fmus)
     model = VehicleModel(
-        VehicleParameters(wheels=1),
+        VehicleParameters(offsets=(0.0,)),
         flat=FlatParameters(shape="haversine", position=12.75),
         speed=ConstantSpeed(speed=40 / 3.6),
     )

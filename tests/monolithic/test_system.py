@@ -110,6 +110,8 @@ def test_a_tighter_tolerance_changes_little():
 def test_what_cannot_be_used_is_refused():
     with pytest.raises(InputError, match="model is 'half' but must be one of modal, full"):
         solve(small(), model="half")
+    with pytest.raises(InputError, match="knows rigid wheels under their loads only"):
+        solve(small("vehicle.model=suspended"))
     with pytest.raises(InputError, match=r"rtol is 1\.0 but must lie between"):
         Accuracy(rtol=1.0)
     with pytest.raises(InputError, match="method is 'Euler' but must be one of Radau, BDF"):

@@ -67,8 +67,8 @@ def track_pair(native):
 
 @pytest.fixture
 def vehicle_pair(native):
-    def make(**options):
-        return VehiclePair(native, **options)
+    def make(resource=None, **options):
+        return VehiclePair(native, resource, **options)
 
     return make
 

@@ -8,7 +8,14 @@ from fmu_src.python.masses_slave import MassesSlave
 from fmu_src.python.track_contact_slave import TrackContactSlave
 
 from .library import HELD, STRAIGHT
-from .twins import TRACK_GROUPS, filled, native_track_state
+from .twins import (
+    TRACK_GROUPS,
+    body_outputs,
+    coordinates,
+    filled,
+    native_track_state,
+    put_dynamic,
+)
 
 CONTACT_GROUPS = ("contact_force", "contact_force_ahead", "gap", "static_displacement")
 MASSES_GROUPS = ("position", "displacement", "velocity")
@@ -81,7 +88,8 @@ class ContactPair:
                    "displacement": wheels, "increment": 2 * self.supports,
                    "increment_rate": 2 * self.supports, "pads": 3 * self.supports,
                    "modal": 2 * filled(self.modes),
-                   "load": 2 * filled(self.modes), "compression": wheels, "ahead": wheels,
+                   "load": 2 * filled(self.modes), "offset": 1, "compression": wheels,
+                   "ahead": wheels,
                    "origin": wheels, "history": 6 * wheels, "ages": 2, "passed": 1}  # fmt: skip
         own = self._to_native(self.numpy.state)
         places = np.cumsum(list(lengths.values()))[:-1]
@@ -110,15 +118,16 @@ class ContactPair:
 class MassesPair:
     """Both masses."""
 
-    def __init__(self, native, resource=None, *, wheels=2, values=()):
+    def __init__(self, native, resource=None, *, wheels=2, bogies=1, values=()):
         class Slave(MassesSlave):
             pass
 
-        Slave.wheels = wheels
+        Slave.wheels, Slave.bogies = wheels, bogies
+        self.wheels, self.bogies = wheels, bogies
         self.native = native("masses", resource)
         for name, value in dict(values).items():
             self.native.set_one(name, value)
-        slave = Slave(instance_name="twin")
+        self.slave = slave = Slave(instance_name="twin")
         self.numpy = slave.make_model(slave._parameters | dict(values))
 
     def start(self, time, forces):
@@ -135,11 +144,18 @@ class MassesPair:
 
     def copy_state(self, state):
         self.numpy.state = state
-        block = self.native.state
-        block[-len(state) :] = state
-        block[0] = state[1]
-        self.native.state = block
+        put_dynamic(self.native, self.dynamic_size, state)
+
+    @property
+    def dynamic_size(self):
+        return 3 + 2 * self.wheels + 4 * coordinates(self)
+
+    @property
+    def dynamic(self):
+        """The native dynamic values that the numpy model has as well."""
+        return self.native.state[-self.dynamic_size :][: len(self.numpy.state)]
 
     def outputs(self):
         for name in MASSES_GROUPS:
             yield name, getattr(self.numpy, name), self.native.group(f"wheel[#].{name}")
+        yield from body_outputs(self)

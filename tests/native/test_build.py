@@ -1,6 +1,7 @@
 """Native FMUs are built once, the same every time, and refused in words."""
 
 import fmpy
+import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 
@@ -10,6 +11,12 @@ from fmu_src.native.compiler import TARGETS, CompilationError, this_target
 from fmu_src.native.library_cache import cached_library
 from fmu_src.native.models import native_vehicle
 from fmu_src.native.packaging import fmu_contents
+from fmu_src.python.track_variables import SPEED, STATIC_WHEEL_LOAD
+from track_fmu.ballast import PolynomialBallast
+from track_fmu.parameters import TrackParameters
+from track_fmu.track_model import TrackModel, TrackOptions
+
+from .twins import reduced_track
 
 
 def test_what_is_there_is_left_alone_and_what_is_damaged_built_again(tmp_path, small):
@@ -42,6 +49,32 @@ def test_another_basis_is_another_file_and_few_are_kept(tmp_path, small):
     assert len(kept) == 8
     assert newest in kept
     assert usual.track.exists()
+
+
+@pytest.mark.parametrize(("version", "contact"), [(2, "vehicle"), (3, "track")])
+def test_a_track_on_bending_sleepers_keeps_to_the_standard(tmp_path, small, version, contact):
+    """And says so in its constants, and has the moments that the numpy model has at the start."""
+    fixed = {"sleeper": "beam", "sleeper_elements": 3, "mode_pairs": 60}
+    path = ensure_native_fmus(
+        tmp_path, small, fixed=fixed, fmi_version=version, contact=contact
+    ).track
+    assert validate_fmu(str(path)) == []
+    variables = {v.name: v for v in fmpy.read_model_description(path).modelVariables}
+    assert (variables["sleeper"].start, variables["sleeper"].variability) == ("beam", "constant")
+    parameters = TrackParameters(
+        bays=small.bays, elements_per_bay=small.elements_per_bay, sleeper="beam", sleeper_elements=3
+    )
+    options, law = TrackOptions(initial_speed=SPEED), PolynomialBallast()
+    track = TrackModel(reduced_track(parameters, 60), options, ballast=law)
+    start = [float(variables[f"wheel[{k}].position"].start) for k in (1, 2)]
+    track.start(np.array(start), np.full(2, STATIC_WHEEL_LOAD))
+    at_seat, at_centre = track.observe().sleeper_moment, track.observe().sleeper_centre_moment
+    most = int(np.argmax(at_seat))
+    assert min(at_seat[most], -at_centre[most]) > 5e2
+    outputs = [f"sleeper[{most + 1}].{n}" for n in ("bending_moment", "centre_bending_moment")]
+    result = fmpy.simulate_fmu(str(path), stop_time=1e-4, step_size=1e-4, output=outputs)
+    expected = [at_seat[most], at_centre[most]]
+    assert [result[name][0] for name in outputs] == pytest.approx(expected, rel=1e-9)
 
 
 def test_what_no_track_can_have_is_refused(tmp_path, small):

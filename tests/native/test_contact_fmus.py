@@ -49,7 +49,7 @@ def described(path):
     return {
         variable.name: (variable.valueReference, variable.unit, variable.description)
         for variable in fmpy.read_model_description(path).modelVariables
-        if variable.causality != "independent"
+        if variable.causality != "independent" and not variable.dimensions
     }
 
 

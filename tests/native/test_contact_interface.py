@@ -64,7 +64,7 @@ def walk(one, steps, shape, *, first=0):
 
 def outputs(model, kind=REAL):
     return [
-        (group.name.decode().rpartition(".")[2], model.group(group.name.decode()))
+        (group.name.decode().removeprefix("wheel[#]."), model.group(group.name.decode()))
         for group in model.groups
         if group.causality == OUTPUT and group.type == kind
     ]

@@ -89,6 +89,19 @@ def test_steps_with_contacts(contact_pair, short_track, values):
     assert_alike(pair.outputs(), relative=1e-11)
 
 
+def test_pads_travel_with_the_window_of_an_endless_track(track_pair, short_track):
+    values = {"pad": PAD, "ballast": "hyperbolic"}
+    pair = track_pair(short_track, endless=True, speed=SPEED, values=values)
+    positions, forces = np.array([4.8, 3.0]), np.full(2, STATIC_LOAD)
+    pair.start(positions, forces)
+    for _ in range(60):
+        positions = positions + 0.04
+        pair.step(2e-4, positions, forces)
+    assert pair.numpy.observe().window_position[0] > 1.0
+    # every move of the window projects the state anew, in other sums of its own
+    assert_alike(scaled(pair.states(), 2e-4), relative=1e-9)
+
+
 @pytest.mark.parametrize("name", ["viscoelastic pads, one without fastening", "gaps"])
 def test_states_are_restored_bit_for_bit_and_travel(native, name):
     def go(track, count):
@@ -144,6 +157,7 @@ def test_derivatives_are_those_of_differences(native, name):
         ({"ballast": PAD}, "must be two finite numbers"),
         (supports(gap_3=-1e-3), "gap = -0.001 of support 3 must be a finite number"),
         (supports(pad_damping_factor_2=np.nan), "pad_damping_factor = nan of support 2"),
+        (supports(gap_3=1e-3) | {"endless": True}, "endless is true, but its supports differ"),
         ({"ballast_beta": -1e17}, "all loads on ballast and pads rise"),
     ],
 )

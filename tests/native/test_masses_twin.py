@@ -52,7 +52,7 @@ def test_step_from_random_states(
     pair.step(step, np.array(forces), linear=linear)
     assert_alike(pair.outputs())
     np.testing.assert_allclose(
-        pair.native.state[-11:], pair.numpy.state, rtol=1e-12, atol=1e-12 * max(1e-3, step)
+        pair.dynamic, pair.numpy.state, rtol=1e-12, atol=1e-12 * max(1e-3, step)
     )
 
 
@@ -107,6 +107,7 @@ def test_refused_steps_change_nothing(masses_pair, linear):
     with pytest.raises(DiscardedError, match="force of wheel 2 is nan N"):
         pair.step(1e-4, np.array([LOAD, np.nan]), linear=linear)
     after = pair.native.state
-    after[-15:] = before[-15:]  # the inputs are the host's
+    inputs = slice(-pair.dynamic_size - 2, -pair.dynamic_size)
+    after[inputs] = before[inputs]  # they are the host's
     pair.native.set_group("wheel[#].contact_force", np.full(2, LOAD))
     assert pair.native.state.tobytes() == before.tobytes()

@@ -13,7 +13,7 @@ from fmu_src.native.resource import ENTRY, HEAD, pack
 
 from .library import NativeError, aligned, create
 
-SECTIONS = 12  # of a track
+SECTIONS = 13  # of a track
 
 
 def refuse(library, data, match):
@@ -74,7 +74,9 @@ def test_table_of_contents_that_lies(libraries, resources, entry, field, value):
 
 
 @pytest.mark.parametrize(
-    "structure", [[0], [-1], [2, 2], [2**62], []], ids=["none", "negative", "two", "huge", "empty"]
+    "structure",
+    [[0, 1], [-1, 1], [2, 1, 1], [2**62, 1], [], [2, 0], [3, 2], [2, 2**62]],
+    ids=["none", "negative", "three", "huge", "empty", "no bogie", "odd", "huge bogies"],
 )
 def test_structure_that_makes_no_sense(libraries, structure):
     sections = {"model": b"Vehicle", "structure": np.array(structure, dtype=np.int64)}
@@ -98,9 +100,9 @@ def test_size_that_cannot_be(libraries, place, value):
 
 
 def test_missing_start_values(libraries):
-    sections = {"model": b"Vehicle", "structure": np.array([2], dtype=np.int64)}
+    sections = {"model": b"Vehicle", "structure": np.array([2, 1], dtype=np.int64)}
     refuse(libraries["vehicle"], pack(sections), "numbers named 'start'")
-    numbers = {"start": np.zeros(17)}
+    numbers = {"start": np.zeros(34)}
     refuse(libraries["vehicle"], pack(sections | numbers), "no start value of speed_table")
 
 

@@ -84,7 +84,10 @@ def test_serialised_state_in_another_instance(track, native):
 def test_vehicle_state_with_its_tables(native, tmp_path):
     path = tmp_path / "rail.csv"
     path.write_text("12 0\n12.5 1e-4\n13 0\n14 0\n")
-    one = native("vehicle", rail_irregularity=str(path), flat__shape="cusp")
+    round_the_wheel = tmp_path / "tread.csv"
+    round_the_wheel.write_text("0 0\n1 1e-4\n2 0\n5 0\n")
+    tread = {"wheel[2].out_of_roundness": str(round_the_wheel)}
+    one = native("vehicle", rail_irregularity=str(path), flat__shape="cusp", **tread)
     one.enter()
     one.exit()
     one.step(0.0, 1e-3)

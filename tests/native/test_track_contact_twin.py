@@ -137,10 +137,12 @@ def test_any_number_of_wheels(contact_pair, wheels, positions):
     assert_alike(rows)
 
 
-def test_rail_with_an_irregularity_and_a_rolled_flat(contact_pair, short_track, tmp_path):
-    rail = tmp_path / "rail.csv"
+def test_uneven_surfaces_and_a_rolled_flat(contact_pair, short_track, tmp_path):
+    rail, tread = tmp_path / "rail.csv", tmp_path / "tread.csv"
+    tread.write_text("0 1e-4\n1 -1e-4\n2.5 5e-5\n5.5 0\n")
     rail.write_text("4.0, 0.0\n4.4, 2e-4\n4.8, -1e-4\n5.2, 1e-4\n")
     values = FLAT | {"rail_irregularity": str(rail), "flat.rolled": True, "flat.depth": 4e-4}
+    values |= {f"wheel[{i}].out_of_roundness": str(tread) for i in (1, 2)}
     pair = contact_pair(short_track, values=values)
     pair.start(np.array([4.45, 2.65]), np.zeros(2))
     for k in range(150):

@@ -93,8 +93,10 @@ def test_many_steps(track_pair, short_track, linear):
         ({"ballast_damping": 3e5, "pad_damping": 4e4}, 30, True),
         ({"sleeper_spacing": 0.6, "elements_per_bay": 1}, 12, True),
         ({}, 20, False),
+        ({"sleeper": "beam"}, 60, True),
+        ({"sleeper": "beam", "sleeper_elements": 2, "elements_per_bay": 1}, 25, False),
     ],
-    ids=["overdamped", "coarse", "without residual flexibility"],
+    ids=["overdamped", "coarse", "without residual flexibility", "beams", "coarse beams"],
 )
 def test_other_tracks(track_pair, values, pairs, residual):
     parameters = TrackParameters(**{"bays": 10, "elements_per_bay": 3} | values)

@@ -18,6 +18,7 @@ TABLES = {
     "profile": "# a worn flat\ndistance;drop\n-0.05;0\n-0.02;4e-4\n0.0;9e-4\n0.03;1e-4\n0.06;0\n",
     "raised": "\ufeff-0.05 0.0\n-0.03 -1e-4\n0.0 6e-4\n0.05 0.0\n",
     "speed": "time,speed\r\n0.0,10\r\n0.2,14\r\n0.5,11.5\r\n",
+    "tread": "angle,drop\n0.4,1e-4\n1.3,-5e-5\n2.0,2e-4\n3.5,0\n6.2,1e-4\n",
     "rail": "15.0, 0.0\n15.9, 2e-4\n\n16.3, -1e-4\n17.5, 1e-4\n",
 }
 
@@ -93,6 +94,7 @@ def test_tables_and_rolled_profiles(vehicle_pair, tables, flat, rolled):
             "flat.shape": tables.get(flat, flat),
             "flat.rolled": rolled,
             "rail_irregularity": tables["rail"],
+            "wheel[2].out_of_roundness": tables["tread"],
             "speed_table": tables["speed"],
             "initial_position": FLAT - 1.0,
         }
@@ -103,6 +105,16 @@ def test_tables_and_rolled_profiles(vehicle_pair, tables, flat, rolled):
     for _ in range(300):
         pair.step(random.choice([3e-5, 2e-4, 1e-3]), random.uniform(0.5e-3, 1.5e-3, 2))
     assert_alike(pair.outputs())
+
+
+@pytest.mark.parametrize("wheels", [(1,), (2,), (1, 2)])
+def test_wheels_that_are_not_round(vehicle_pair, tables, wheels):
+    treads = {f"wheel[{i}].out_of_roundness": tables["tread"] for i in wheels}
+    pair = vehicle_pair(values=treads | {"initial_position": FLAT - 0.5, "speed": 20.0})
+    pair.start(0.05, np.array([1e-3, 1.2e-3]))
+    for _ in range(200):  # 4 m, more than a turn
+        pair.step(1e-3, np.array([1e-3, 1.2e-3]))
+        assert_alike(pair.outputs())
 
 
 def test_comma_of_the_locale_does_not_matter(vehicle_pair, tables):
@@ -162,6 +174,9 @@ def test_texts_that_are_too_long_are_refused(native):
         ("speed_table", "", "at least 2 are needed"),
         ("speed_table", "0 1\n1 0\n", "must be above zero"),
         ("rail_irregularity", "0 1\n1 0\n2 0\n", "at least 4 are needed"),
+        ("wheel[2].out_of_roundness", "0 1\n90 0\n180 0\n270 0\n", "below 2 pi: give radians"),
+        ("wheel[2].out_of_roundness", "-1 1\n1 0\n2 0\n3 0\n", "must be at least 0"),
+        ("wheel[1].out_of_roundness", "0 1\n1 0\n2 0\n", "at least 4 are needed"),
         ("flat.shape", "0 1e-3\n1e-2 2e-3\n2e-2 1e-3\n3e-2 0\n", "zero at both ends"),
         ("flat.shape", "0 0\n1e-2 -2e-3\n2e-2 0\n3e-2 0\n", "change the sign"),
     ],

@@ -23,6 +23,9 @@ TRACK_GROUPS = {
     "sleeper_displacement": "sleeper[#].displacement",
     "pad_force": "pad[#].force",
     "ballast_force": "ballast[#].force",
+    "sleeper_moment": "sleeper[#].bending_moment",
+    "sleeper_centre_moment": "sleeper[#].centre_bending_moment",
+    "window_position": "window_position",
 }
 VEHICLE_GROUPS = ("position", "contact_force", "displacement", "velocity", "gap")
 AGREEMENT = 1e-12  # of the largest value of an array
@@ -36,6 +39,13 @@ ORDER = {
     "contact_force": 1e5,
     "force_change": 1e5,
     "velocity": 0.1,
+    "displacement": 1e-4,
+    "bogie_displacement": 1e-4,
+    "bogie_pitch": 1e-4,
+    "bogie_acceleration": 1.0,
+    "car_displacement": 1e-4,
+    "car_pitch": 1e-5,
+    "car_acceleration": 0.1,
 }
 """What differences are compared with where the values are smaller, as those of a track at rest."""
 
@@ -64,11 +74,11 @@ def filled(modes):
 
 def native_track_state(flat, *, wheels, supports, modes):
     """Numpy's state as C has it: modes split and filled up."""
-    lengths = [5 * wheels + 7 * supports, 2 * modes]
-    real, modal, load = np.split(flat, np.cumsum(lengths))
+    lengths = [5 * wheels + 7 * supports, 2 * modes, 2 * modes]
+    real, modal, load, offset = np.split(flat, np.cumsum(lengths))
     rows = np.zeros((4, filled(modes)))
     rows[:, :modes] = modal[::2], modal[1::2], load[::2], load[1::2]
-    return np.concatenate([real, rows.ravel()])
+    return np.concatenate([real, rows.ravel(), offset])
 
 
 class TrackPair:
@@ -86,6 +96,7 @@ class TrackPair:
         supports=6,
         gauge=None,
         values=(),
+        endless=False,
     ):
         self.native = native(
             "track",
@@ -94,6 +105,7 @@ class TrackPair:
             initial_speed=speed,
             ballast=ballast,
             supports_per_wheel=supports,
+            endless=endless,
         )
         if gauge is not None:
             self.native.set_one("gauge[1].position", gauge)
@@ -116,6 +128,7 @@ class TrackPair:
                 supports_per_wheel=supports,
                 initial_speed=speed,
                 gauges=tuple(self.native.group("gauge[#].position")),
+                endless=endless,
             ),
             ballast=laws[0],
             pad=laws[1],
@@ -155,9 +168,10 @@ class TrackPair:
         """Numpy's state as the native one has it, and the native one; names and values."""
         supports = self.parameters.supports
         lengths = [self.wheels] * 5 + [2 * supports] * 2 + [supports] * 3 + [2 * self._half] * 2
+        lengths.append(1)
         names = ("position", "speed", "force", "force_rate", "displacement", "increment",
                  "increment_rate", "branch_force", "compression", "known", "modal",
-                 "load")  # fmt: skip
+                 "load", "offset")  # fmt: skip
         places = np.cumsum(lengths)[:-1]
         own = self._to_native(self.numpy.state)
         expected, found = np.split(own, places), np.split(self.native.state[-len(own) :], places)
@@ -177,10 +191,14 @@ class TrackPair:
 class VehiclePair:
     """Both vehicles; the numpy one is made as the Python FMU makes it."""
 
-    def __init__(self, native, *, linear=True, values=()):
-        self.linear = linear
-        self.native = native("vehicle", linear_inputs=linear)
-        slave = VehicleSlave(instance_name="twin")
+    def __init__(self, native, resource=None, *, wheels=2, bogies=1, linear=True, values=()):
+        class Slave(VehicleSlave):
+            pass
+
+        Slave.wheels, Slave.bogies = wheels, bogies
+        self.linear, self.wheels, self.bogies = linear, wheels, bogies
+        self.native = native("vehicle", resource, linear_inputs=linear)
+        self.slave = slave = Slave(instance_name="twin")
         parameters = slave._parameters | dict(values)
         for name, value in dict(values).items():
             self.native.set_one(name, value)
@@ -200,11 +218,42 @@ class VehiclePair:
 
     def copy_state(self, state):
         self.numpy.state = state
-        block = self.native.state
-        block[-len(state) :] = state
-        block[0] = state[1]
-        self.native.state = block
+        put_dynamic(self.native, 2 + 2 * (self.wheels + coordinates(self)), state)
 
     def outputs(self):
         for name in VEHICLE_GROUPS:
             yield name, getattr(self.numpy, name), self.native.group(f"wheel[#].{name}")
+        yield from body_outputs(self)
+
+
+BODY_GROUPS = {
+    "bogie_displacement": "bogie[#].displacement",
+    "bogie_pitch": "bogie[#].pitch",
+    "bogie_acceleration": "bogie[#].acceleration",
+    "car_displacement": "car.displacement",
+    "car_pitch": "car.pitch",
+    "car_acceleration": "car.acceleration",
+    "primary_force": "primary[#].force",
+    "secondary_force": "secondary[#].force",
+}
+
+
+def body_outputs(pair):
+    """Name, numpy's and the native values of the bodies above the wheels."""
+    for name, group in BODY_GROUPS.items():
+        yield name, np.array(pair.slave.read_model(pair.numpy, name)), pair.native.group(group)
+
+
+def coordinates(pair):
+    """Number of coordinates of a vehicle."""
+    return 2 * (pair.wheels + pair.bogies + 1)
+
+
+def put_dynamic(native, size, state):
+    """Set the first of so many dynamic values, which end the block, and the time."""
+    block = native.state
+    first = len(block) - size
+    block[first:] = 0.0
+    block[first : first + len(state)] = state
+    block[0] = state[1]
+    native.state = block

@@ -2,7 +2,8 @@
 
 Newmark's average acceleration rule with a fixed step; contact and ballast forces at the end of each
 step are found together by Newton's iteration. Only the element matrices are shared with the package
-(`tests/track` checks those by themselves).
+(`tests/track` checks those by themselves). Under sleepers that bend, the ballast increment follows
+the mean deflection, as in the package, or the deflection of every point of the sleeper by itself.
 """
 
 from dataclasses import dataclass, replace
@@ -12,8 +13,10 @@ import scipy.sparse as sp
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from track_fmu.assembly import assemble, to_banded
+from track_fmu.beam_element import deflection_shape, shear_parameter
 from track_fmu.contact_point import locate
 from track_fmu.parameters import TrackParameters
+from track_fmu.sleeper import sleeper_nodes
 
 HERTZ = 9.17e10
 MASS = 592.5
@@ -52,6 +55,27 @@ class Passage:
     position: np.ndarray
     force: np.ndarray
     sleeper: np.ndarray
+    second_force: np.ndarray
+
+
+def local_beds(parameters, numbering):
+    """Deflections at the Gauss points under all sleepers, shape (N, points), and their shares."""
+    nodes, _ = sleeper_nodes(
+        parameters.sleeper_half_length, parameters.sleeper_rail_seat, parameters.sleeper_elements
+    )
+    places, weights = np.polynomial.legendre.leggauss(2)
+    columns, shares = [], []
+    for dofs in numbering.sleeper_dofs:
+        padded = np.array([dofs[0], -1, *dofs[1:]])
+        for element, length in enumerate(np.diff(nodes)):
+            phi = shear_parameter(parameters.sleeper_section, length)
+            for place, weight in zip(places, weights, strict=True):
+                column = np.zeros(numbering.size + 1)
+                shape = deflection_shape(0.5 * (1.0 + place), length, phi)
+                column[padded[2 * element : 2 * element + 4]] = shape
+                columns.append(column[:-1])
+                shares.append(0.5 * weight * length / nodes[-1])
+    return np.array(columns).T, np.array(shares)
 
 
 class FullModel:
@@ -61,16 +85,21 @@ class FullModel:
     law then.
     """
 
-    def __init__(self, *, state_dependent=True, bays=50, pads=None, beds=None, gaps=None):
-        self.parameters = TrackParameters(bays=bays)
-        ones = np.ones(bays - 1)
-        self.beds = ones if beds is None else beds
-        self.gaps = 0.0 * ones if gaps is None else gaps
-        linear_beds = np.where(self.gaps > 0.0, 0.0, self.beds)
+    def __init__(
+        self, *, state_dependent=True, local=False, pads=None, beds=None, gaps=None, **values
+    ):
+        self.parameters = TrackParameters(**values)
+        ones = np.ones(self.parameters.supports)
+        self.factors = 1.0 if beds is None else beds
+        self.gaps = np.zeros(1) if gaps is None else gaps
+        linear_beds = np.where(self.gaps > 0.0, 0.0, self.factors) * ones
         self.matrices = varied(self.parameters, ones if pads is None else pads, linear_beds)
         self.scale = 1.0 if state_dependent else 0.0
         self.sleeper = self.matrices.numbering.sleeper
         self.size = self.matrices.mass.shape[0]
+        self.beds, self.share = self.matrices.ballast_incidence.toarray(), 1.0
+        if local:
+            self.beds, self.share = local_beds(self.parameters, self.matrices.numbering)
 
     def contact_columns(self, positions):
         columns = np.zeros((self.size + 1, len(positions)))
@@ -86,30 +115,39 @@ class FullModel:
         x = self.scale * np.maximum(x - self.gaps, 0.0)
         secant = x * (ALPHA + x * (BETA + x * DELTA)) + np.where(hangs, 30e6, 0.0)
         slope = ALPHA + x * (2 * BETA + x * 3 * DELTA)
-        share = np.where(hangs, np.minimum(x / 20e-6, 1.0), 1.0)
-        share_slope = np.where(hangs & (x > 0.0) & (x < 20e-6), 1.0 / 20e-6, 0.0)
-        force = secant * (x + share * TAU * v)
-        by_x = secant * (1.0 + share_slope * TAU * v) + slope * (x + share * TAU * v)
+        onset = np.where(hangs, np.minimum(x / 20e-6, 1.0), 1.0)
+        onset_slope = np.where(hangs & (x > 0.0) & (x < 20e-6), 1.0 / 20e-6, 0.0)
+        force = secant * (x + onset * TAU * v)
+        by_x = secant * (1.0 + onset_slope * TAU * v) + slope * (x + onset * TAU * v)
         gone = hangs & ((x <= 0.0) | (force < 0.0))
-        values = (force, by_x, share * TAU * secant)
-        return tuple(self.beds * np.where(gone, 0.0, value) for value in values)
+        values = (force, by_x, onset * TAU * secant)
+        return tuple(self.share * self.factors * np.where(gone, 0.0, value) for value in values)
 
     def equilibrium(self, positions):
         columns = self.contact_columns(positions)
         factor = cholesky_banded(to_banded(self.matrices.stiffness), lower=True)
-        units = np.zeros((self.size, len(self.sleeper)))
-        units[self.sleeper, np.arange(len(self.sleeper))] = 1.0
-        flexibility = cho_solve_banded((factor, True), units)
+        flexibility = cho_solve_banded((factor, True), self.beds)
         linear = cho_solve_banded((factor, True), columns @ np.full(len(positions), LOAD))
-        force = np.zeros(len(self.sleeper))
+        force = np.zeros(self.beds.shape[1])
+        among = self.beds.T @ flexibility
         for _ in range(60):
             x = linear - flexibility @ force
-            value, slope, _ = self.ballast(x[self.sleeper], 0.0)
-            jacobian = np.eye(len(force)) + slope[:, None] * flexibility[self.sleeper]
+            value, slope, _ = self.ballast(self.beds.T @ x, 0.0)
+            jacobian = np.eye(len(force)) + slope[:, None] * among
             force = force + np.linalg.solve(jacobian, value - force)
         return linear - flexibility @ force
 
-    def run(self, *, speed, drop, start=12.7, stop=19.2, axle_base=1.8, step=2e-5):
+    def run(
+        self,
+        *,
+        speed,
+        drop,
+        second_drop=lambda _: 0.0,
+        start=12.7,
+        stop=19.2,
+        axle_base=1.8,
+        step=2e-5,
+    ):
         mass, damping, stiffness = (
             self.matrices.mass,
             self.matrices.damping,
@@ -117,16 +155,15 @@ class FullModel:
         )
         effective = stiffness + (2.0 / step) * damping + (4.0 / step**2) * mass
         factor = cholesky_banded(to_banded(effective), lower=True)
-        supports = np.arange(len(self.sleeper))
-        units = np.zeros((self.size, len(supports)))
-        units[self.sleeper, supports] = 1.0
-        response = cho_solve_banded((factor, True), units)
+        response = cho_solve_banded((factor, True), self.beds)
+        among = self.beds.T @ response
         offsets = np.array([0.0, -axle_base])
         x, v = self.equilibrium(start + offsets), np.zeros(self.size)
         a = np.zeros(self.size)
         z = self.contact_columns(start + offsets).T @ x + (LOAD / HERTZ) ** (2 / 3)
+        z += [drop(start), second_drop(start - axle_base)]
         zv, za = np.zeros(2), np.zeros(2)
-        force, increment = np.full(2, LOAD), self.ballast(x[self.sleeper], 0.0)[0]
+        force, increment = np.full(2, LOAD), self.ballast(self.beds.T @ x, 0.0)[0]
         wheel_response = step**2 / (4.0 * MASS)
         history = []
         for k in range(1, round((stop - start) / speed / step) + 1):
@@ -137,13 +174,13 @@ class FullModel:
             right = mass @ predicted + damping @ (2.0 / step * x + v)
             free = cho_solve_banded((factor, True), right)
             free_wheel = z + step * zv + step**2 / 4.0 * za + wheel_response * LOAD
-            surface = np.array([drop(at[0]), 0.0])
+            surface = np.array([drop(at[0]), second_drop(at[1])])
             for _ in range(30):
                 new = free + columns_response @ force - response @ increment
                 new_v = 2.0 / step * (new - x) - v
                 compression = free_wheel - wheel_response * force - columns.T @ new - surface
                 pressed = np.maximum(compression, 0.0)
-                ballast, by_x, by_v = self.ballast(new[self.sleeper], new_v[self.sleeper])
+                ballast, by_x, by_v = self.ballast(self.beds.T @ new, self.beds.T @ new_v)
                 by_x = by_x + 2.0 / step * by_v
                 residual = np.concatenate(
                     [HERTZ * pressed**1.5 - force, self.scale * (ballast - increment)]
@@ -151,13 +188,13 @@ class FullModel:
                 if np.abs(residual).max() < 1e-6:
                     break
                 contact = 1.5 * HERTZ * np.sqrt(pressed)
-                jacobian = np.eye(2 + len(supports))
+                jacobian = np.eye(2 + len(among))
                 jacobian[:2, :2] += contact[:, None] * (
                     columns.T @ columns_response + wheel_response * np.eye(2)
                 )
                 jacobian[:2, 2:] -= contact[:, None] * (columns.T @ response)
-                jacobian[2:, :2] -= by_x[:, None] * columns_response[self.sleeper]
-                jacobian[2:, 2:] += by_x[:, None] * response[self.sleeper]
+                jacobian[2:, :2] -= by_x[:, None] * (self.beds.T @ columns_response)
+                jacobian[2:, 2:] += by_x[:, None] * among
                 change = np.linalg.solve(jacobian, residual)
                 force, increment = force + change[:2], increment + change[2:]
             else:
@@ -166,6 +203,6 @@ class FullModel:
             za_new = (LOAD - force) / MASS
             z, zv = free_wheel - wheel_response * force, zv + 0.5 * step * (za + za_new)
             za = za_new
-            history.append((at[0], force[0], x[self.sleeper].max()))
+            history.append((at[0], force[0], x[self.sleeper].max(), force[1]))
         columns = np.array(history).T
         return Passage(*columns)

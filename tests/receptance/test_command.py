@@ -88,7 +88,7 @@ def test_a_transfer_receptance_under_a_preload(call):
     [
         (["--position", "40"], "not between the clamped ends"),
         (["--response", "there"], "--response there is no place"),
-        (["--preload", "-5"], "at least 0 N"),
+        (["--preload", "-5"], "-5 N but must be from 0 to 1e+07 N"),
         (["--preload", "5", "--set", "track.ballast=linear"], "linear track"),
         (["--from", "100", "--to", "50"], "no range"),
         (["--points", "1"], "choose 3 to"),

@@ -14,8 +14,10 @@ import pytest
 import xarray as xr
 from distributed import Client, LocalCluster
 
+from railcosim.errors import RunError
 from railcosim.output import write_dataset
 from railcosim.sweep import SweepProgress, parse_study, run_study
+from railcosim.sweep.cluster import local_client
 from railcosim.sweep.engine import KILLED
 from railcosim.sweep.work import run_case_on_worker
 
@@ -102,6 +104,35 @@ def test_an_interrupted_sweep_says_how_far_it_is(cheap, tmp_path, number):
     assert "Traceback" not in err
     assert psutil.wait_procs(children, timeout=60)[1] == []
     assert 0 < len(stored(store)) < CASES
+
+
+def test_a_sweep_interrupted_while_its_workers_start_closes_them(monkeypatch):
+    """Ctrl-C comes in the middle of the construction of the cluster."""
+    made = []
+
+    class Cluster:
+        def __init__(self, **_):
+            made.append(self)
+            self.closed = False
+            signal.raise_signal(signal.SIGINT)
+
+        def close(self):
+            self.closed = True
+
+    monkeypatch.setattr("distributed.LocalCluster", Cluster)
+    with pytest.raises(KeyboardInterrupt), local_client(1, 1):
+        pass
+    assert [cluster.closed for cluster in made] == [True]
+
+
+@pytest.mark.parametrize("error", [RuntimeError("Nanny failed to start."), OSError("no room")])
+def test_workers_that_cannot_be_started_are_said_to_be_so(monkeypatch, error):
+    def fail(**_):
+        raise error
+
+    monkeypatch.setattr("distributed.LocalCluster", fail)
+    with pytest.raises(RunError, match=f"cannot be started .{error}"), local_client(1, 1):
+        pass
 
 
 @contextmanager

@@ -184,3 +184,21 @@ def test_a_wrong_case_is_named(text, message):
     study = parse_study(f"[sweep.grid]\n{text}\n")
     with pytest.raises(InputError, match=message):
         list(study.cases())
+
+
+def test_irregularities_are_of_the_base_and_their_keys_are_swept():
+    """A base is not changed by its cases."""
+    study = parse_study(
+        """
+[[base.irregularity]]
+kind = "corrugation"
+wavelength = 0.06
+depth = 20e-6
+
+[sweep.grid]
+"irregularity[1]".wavelength = [0.04, 0.08]
+"""
+    )
+    waves = [case.scenario.irregularity[0].wavelength for case in study.cases()]
+    assert waves == [0.04, 0.08]
+    assert study.base.values["irregularity"][0]["wavelength"] == 0.06

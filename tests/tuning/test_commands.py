@@ -137,7 +137,7 @@ def test_load_displacement_prints_and_writes(call, secant, tmp_path):
         (["tune", "receptance", "hammer.csv", "--position", "33"], "33 m is not between"),
         (["tune", "ballast", "hammer.csv"], "line 2: has 3 values, not 2"),
         (["tune", "ballast", "missing.csv"], "missing.csv: cannot be read"),
-        (["load-displacement", "--slope", "-1"], "at least 0"),
+        (["load-displacement", "--slope", "-1"], "from 0 to"),
         (["load-displacement", "--loads", "2"], "3 coefficients"),
         (["load-displacement", "--largest-load", "0"], "above 0 N"),
         (["load-displacement", "--frequency", "nan"], "--frequency is nan Hz"),

@@ -1,4 +1,5 @@
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -92,12 +93,12 @@ def test_what_is_held_stays():
     assert max(map(abs, errors(tuned).values())) < 0.01
 
 
+@pytest.mark.parametrize("sleeper", ["rigid", "beam"])
 @pytest.mark.parametrize("response", [MIDSPAN, Place(sleeper=24)])
-def test_derivatives_are_those_of_the_receptance(response):
+def test_derivatives_are_those_of_the_receptance(response, sleeper):
     frequency = np.array([30.0, 64.0, 258.0, 955.0])
-    model = SupportReceptance(
-        track_parameters(Scenario().track), frequency, load=MIDSPAN, response=response
-    )
+    parameters = track_parameters(replace(Scenario().track, sleeper=sleeper))
+    model = SupportReceptance(parameters, frequency, load=MIDSPAN, response=response)
     values = np.array(list(TRUE.values()))
     derivatives = model.evaluate(values)[1]
     for k in range(4):

@@ -16,10 +16,10 @@ DROP = np.array([0.0, 9e-4, 9e-4, 0.0])
 @pytest.mark.parametrize(
     ("wrong", "sentence"),
     [
-        ({"wheels": 0}, "wheels is 0; a vehicle has at least 1"),
+        ({"offsets": ()}, "of wheel 1, must be 0"),
         ({"wheel_mass": -1.0}, "wheel_mass is -1 kg; .*half the unsprung mass"),
         ({"static_wheel_load": 0.0}, "static_wheel_load is 0 N"),
-        ({"axle_base": math.inf}, "axle_base is inf m"),
+        ({"offsets": (0.0, math.inf)}, "offset of wheel 2 is inf m"),
         ({"wheel_radius": math.nan}, "wheel_radius is nan m"),
         ({"hertz_coefficient": 0.0}, r"hertz_coefficient is 0 N/m\^1.5"),
         ({"substep": 0.0}, "substep is 0 s"),

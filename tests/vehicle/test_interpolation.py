@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import PchipInterpolator
 
-from vehicle_fmu.interpolation import linear_curve, monotone_curve
+from vehicle_fmu.interpolation import linear_curve, monotone_curve, periodic_monotone_curve
 
 tables = st.lists(
     st.tuples(st.floats(0.1, 3.0), st.floats(-1.0, 1.0).map(lambda y: round(y, 6))),
@@ -59,3 +59,17 @@ def test_monotone_curve_converges_with_order_three_at_least():
 
     # The weighted harmonic mean is a second-order slope, so the curve is of third order.
     assert error(20) / error(40) > 0.9 * 2.0**3
+
+
+@given(tables)
+@settings(deadline=None)
+def test_a_periodic_curve_is_the_middle_of_three_periods(table):
+    x, y = table
+    period = float(x[-1] - x[0]) + 0.7
+    curve = periodic_monotone_curve(x, y, period)
+    three = PchipInterpolator(
+        np.concatenate([x - period, x, x + period]), np.concatenate([y, y, y])
+    )
+    points = np.linspace(x[0], x[0] + period, 101)
+    # As above; ends of three periods are far from the middle one.
+    np.testing.assert_allclose([curve(p) for p in points.tolist()], three(points), atol=1e-12)

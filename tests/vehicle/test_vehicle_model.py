@@ -30,7 +30,7 @@ def test_defaults_are_the_demonstration_example():
     assert parameters.wheel_mass == 1185.0 / 2.0
     assert parameters.static_wheel_load == pytest.approx(24_000.0 * 9.81 / 2.0, rel=1e-15)
     assert parameters.wheel_radius == 0.900 / 2.0
-    assert parameters.axle_base == 1.8
+    assert parameters.offsets == (0.0, 1.8)
 
 
 def test_start_is_static_equilibrium_on_the_displaced_rail(make_vehicle):
@@ -67,7 +67,7 @@ def test_static_equilibrium_stays_put_to_rounding(make_vehicle):
 
 
 def test_lifted_wheel_falls_freely_and_lands(make_vehicle):
-    vehicle = make_vehicle(wheels=1)
+    vehicle = make_vehicle(offsets=(0.0,))
     state = vehicle.state
     state[2] = -1e-3
     vehicle.state = state
@@ -90,7 +90,7 @@ def test_order_of_the_coupling_input(make_vehicle, linear, order):
         return 3e-5 * (1.0 - math.cos(800.0 * t))
 
     def forces(step, *, linear):
-        vehicle = make_vehicle(wheels=1, substep=1e-5)
+        vehicle = make_vehicle(offsets=(0.0,), substep=1e-5)
         every = round(2e-4 / step)
         return run(vehicle, 8e-3, step, rail, linear=linear)[every - 1 :: every]
 
@@ -100,7 +100,7 @@ def test_order_of_the_coupling_input(make_vehicle, linear, order):
 
 
 def test_held_input_acts_from_the_start_of_the_step(make_vehicle):
-    vehicle = make_vehicle(wheels=1)
+    vehicle = make_vehicle(offsets=(0.0,))
     k = hertz_stiffness(P, C)
     push, time = 1e-9, 5e-5
     vehicle.step(0.0, time, np.array([push]), linear=False)
@@ -114,7 +114,7 @@ def test_smooth_flat_converges_with_order_four_in_the_substep(make_vehicle):
     flat = FlatParameters(length=0.5, depth=3e-4, position=12.8)
 
     def end(substep):
-        vehicle = make_vehicle(wheels=1, flat=flat, substep=substep)
+        vehicle = make_vehicle(offsets=(0.0,), flat=flat, substep=substep)
         forces = run(vehicle, 0.02, 4e-4)
         assert forces.min() > 0.0
         return vehicle.displacement[0]
@@ -126,8 +126,8 @@ def test_smooth_flat_converges_with_order_four_in_the_substep(make_vehicle):
 
 def test_default_substep_resolves_the_impact_of_a_flat(make_vehicle):
     flat = FlatParameters(position=12.8)
-    coarse = run(make_vehicle(wheels=1, flat=flat), 0.03, 1e-4)
-    fine = run(make_vehicle(wheels=1, flat=flat, substep=1e-6), 0.03, 1e-4)
+    coarse = run(make_vehicle(offsets=(0.0,), flat=flat), 0.03, 1e-4)
+    fine = run(make_vehicle(offsets=(0.0,), flat=flat, substep=1e-6), 0.03, 1e-4)
     assert fine.min() == 0.0
     assert fine.max() > 3.0 * P
     assert np.abs(coarse - fine).max() < 1e-3 * P
@@ -144,7 +144,7 @@ def test_step_takes_as_many_substeps_as_it_holds(make_vehicle, substep):
 
 def test_one_step_equals_the_sum_of_its_substeps(make_vehicle):
     flat = FlatParameters(position=12.72)
-    whole, parts = (make_vehicle(wheels=1, flat=flat) for _ in range(2))
+    whole, parts = (make_vehicle(offsets=(0.0,), flat=flat) for _ in range(2))
     for k in range(50):
         start, rise = k * 1e-4, 1e-6
         whole.step(start, 1e-4, np.array([(k + 1) * rise]), linear=True)
@@ -174,7 +174,9 @@ def test_flat_drops_the_load_then_strikes_where_it_is_put(make_vehicle):
 
 def test_wheels_do_not_know_of_each_other(make_vehicle):
     both = make_vehicle(flat=FlatParameters(wheel=2, position=11.0))
-    alone = make_vehicle(wheels=1, initial_position=12.7 - 1.8, flat=FlatParameters(position=11.0))
+    alone = make_vehicle(
+        offsets=(0.0,), initial_position=12.7 - 1.8, flat=FlatParameters(position=11.0)
+    )
     forces = run(both, 0.03, 1e-4), run(alone, 0.03, 1e-4)
     # Positions differ by the rounding of 12.7 - 1.8.
     np.testing.assert_allclose(forces[0][:, 1], forces[1][:, 0], rtol=1e-8, atol=1e-6)
@@ -183,7 +185,7 @@ def test_wheels_do_not_know_of_each_other(make_vehicle):
 def test_periodic_flat_strikes_once_per_turn(make_vehicle):
     turn = 2.0 * math.pi * 0.45
     flat = FlatParameters(length=0.05, depth=5e-5, position=12.8, periodic=True)
-    vehicle = make_vehicle(wheels=1, flat=flat)
+    vehicle = make_vehicle(offsets=(0.0,), flat=flat)
     drops = []
     for k in range(6000):
         vehicle.step(k * 1e-4, 1e-4, np.zeros(1), linear=True)
@@ -200,7 +202,7 @@ def test_corrugation_excites_like_a_linear_oscillator(make_vehicle):
     corrugation = RailIrregularity(
         position=x, drop=amplitude * np.cos(2.0 * np.pi * (x - 12.7) / length)
     )
-    vehicle = make_vehicle(wheels=1, irregularity=corrugation)
+    vehicle = make_vehicle(offsets=(0.0,), irregularity=corrugation)
     omega, own = 2.0 * math.pi * SPEED / length, math.sqrt(hertz_stiffness(P, C) / MASS)
     forced = amplitude / (1.0 - (omega / own) ** 2)
     worst = 0.0

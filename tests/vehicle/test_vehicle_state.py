@@ -16,7 +16,7 @@ def build():
     """A vehicle with everything on: table speed, rolled periodic flat, irregular rail."""
     rng = np.random.default_rng(3)
     vehicle = VehicleModel(
-        VehicleParameters(wheels=3),
+        VehicleParameters(offsets=(0.0, 1.8, 3.6)),
         flat=FlatParameters(position=12.72, periodic=True, rolled=True, wheel=1),
         speed=SpeedTable(time=np.array([0.0, 0.05]), speed=np.array([11.0, 14.0])),
         irregularity=RailIrregularity(

@@ -20,6 +20,32 @@ static int sizes_fit(const int64_t *size)
            size[HALF] >= size[MODES] && size[HALF] % RC_LANES == 0;
 }
 
+/* Whether masses are numbers, and above zero on the diagonal. */
+static int masses_fit(const double *inertia)
+{
+    for (size_t i = 0; i < RC_INERTIA_COUNT; ++i)
+        if (!isfinite(inertia[i]) || ((i % 5 == 0 || i == RC_INERTIA_COUNT - 1) &&
+                                      !(inertia[i] > 0.0)))
+            return 0;
+    return 1;
+}
+
+/* What is observed of the sleepers, which the resource has if they are beams. */
+static rc_status read_sleepers(rc_model *model, rc_basis *basis)
+{
+    const size_t rows = 3 * basis->supports;
+    size_t count;
+    basis->sleeper_shape = basis->sleeper_flexibility = NULL;
+    if (rc_find_section(&model->resource, "sleeper_shape", RC_FLOAT64, &count) == NULL)
+        return RC_OK;
+    if ((basis->sleeper_shape =
+             rc_require_section(model, "sleeper_shape", rows * basis->length)) == NULL ||
+        (basis->sleeper_flexibility = rc_require_section(model, "sleeper_flexibility",
+                                                         rows * basis->coordinates)) == NULL)
+        return RC_ERROR;
+    return RC_OK;
+}
+
 rc_status rc_read_basis(rc_model *model, rc_basis *basis)
 {
     size_t count;
@@ -59,7 +85,11 @@ rc_status rc_read_basis(rc_model *model, rc_basis *basis)
         (basis->moment_shape = rc_require_section(model, "moment_shape", nodes * length)) == NULL ||
         (basis->flexibility = rc_require_section(model, "flexibility", n * n)) == NULL ||
         (basis->moment_flexibility = rc_require_section(model, "moment_flexibility", nodes * n)) ==
-            NULL)
+            NULL ||
+        (basis->inertia = rc_require_section(model, "inertia", RC_INERTIA_COUNT)) == NULL)
         return RC_ERROR;
-    return RC_OK;
+    if (!masses_fit(basis->inertia))
+        return rc_fail(model, RC_ERROR, "the resource describes a track without mass; build the "
+                                        "FMU again");
+    return read_sleepers(model, basis);
 }

@@ -1,7 +1,7 @@
 /* The track in its modes, as the resource holds it; twin of track_fmu/reduction.py.
  *
  * Coordinates: deflection and rotation of every rail node, then the deformation of the ballast
- * under every sleeper, then that of every pad.
+ * under every sleeper (a weighted mean if it bends), then that of every pad.
  */
 #ifndef RC_BASIS_H
 #define RC_BASIS_H
@@ -9,6 +9,8 @@
 #include <stddef.h>
 
 #include "instance.h"
+
+#define RC_INERTIA_COUNT 17
 
 typedef struct {
     size_t wheels, gauges, elements, supports;
@@ -23,6 +25,11 @@ typedef struct {
     const double *moment_shape; /* (nodes, length), rows */
     const double *flexibility;  /* (coordinates, coordinates) */
     const double *moment_flexibility; /* (nodes, coordinates) */
+    const double *inertia; /* mass matrix of an element, by rows, then the mass of a sleeper */
+    /* bending moments of the sleepers at all rail seats, then at all centres, then their mean
+     * deflections; NULL if they are rigid */
+    const double *sleeper_shape;       /* (3 supports, length), rows */
+    const double *sleeper_flexibility; /* (3 supports, coordinates) */
 } rc_basis;
 
 rc_status rc_read_basis(rc_model *model, rc_basis *basis);
@@ -46,6 +53,12 @@ static inline size_t rc_component(const rc_basis *basis, size_t number)
 static inline size_t rc_ballast(const rc_basis *basis, size_t support)
 {
     return 2 * basis->nodes + support;
+}
+
+/* The rail above a sleeper. */
+static inline size_t rc_above(const rc_basis *basis, size_t support)
+{
+    return 2 * (support + 1) * (basis->elements / (basis->supports + 1));
 }
 
 static inline size_t rc_pad(const rc_basis *basis, size_t support)

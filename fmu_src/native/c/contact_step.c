@@ -5,6 +5,7 @@
 
 #include "dense.h"
 #include "track_contact.h"
+#include "window.h"
 
 double rc_count_contact_parts(double step)
 {
@@ -82,33 +83,36 @@ static void reach(rc_track_contact *own, const rc_contact_state *at, const doubl
     else
         rc_continue(&at->history, share * step, own->wheels);
     /* what is continued may lead a little beyond the track at its ends */
-    for (size_t i = 0; i < basis->wheels; ++i)
+    for (size_t i = 0; i < basis->wheels && !own->track.endless; ++i)
         own->wheels[i] = fmin(fmax(own->wheels[i], 0.0), basis->track_length);
 }
 
 /* One part, to the positions and displacements in own->wheels at its end. */
-static int advance(rc_track_contact *own, double *dynamic, const rc_contact_state *at, double step)
+static rc_advance advance(rc_track_contact *own, double *dynamic, const rc_contact_state *at,
+                          double step)
 {
     rc_track *track = &own->track;
     const size_t wheels = track->basis.wheels;
     const double *position = own->wheels, *displacement = own->wheels + wheels;
     rc_track_state state = rc_view_state(&track->basis, dynamic);
+    if (track->endless && !rc_follow_wheels(track, &state, position))
+        return RC_LOST;
     for (size_t i = 0; i < wheels; ++i)
         own->level[i] = displacement[i] + at->origin[i] -
                         rc_surface_drop(&own->surfaces, i, position[i]);
     rc_prepare_operator(track, dynamic, step, 1, position);
     if (!rc_solve_contact(track, &own->work, own->coefficient, own->level, at->compression) ||
         !(rc_largest(own->work.solution->force, wheels) <= RC_MOST_FORCE))
-        return 0;
+        return RC_NOT_CONVERGED;
     rc_move_track(track, &state, own->work.solution->force);
     if (!rc_is_finite(&track->basis, &state))
-        return 0;
+        return RC_NOT_CONVERGED;
     memcpy(at->compression, own->work.solution->compression, wheels * sizeof(double));
-    return 1;
+    return RC_MADE;
 }
 
-int rc_advance_contact(rc_track_contact *own, double *dynamic, double step, const double *given,
-                       int linear)
+rc_advance rc_advance_contact(rc_track_contact *own, double *dynamic, double step,
+                              const double *given, int linear)
 {
     const rc_basis *basis = &own->track.basis;
     const rc_contact_state at = rc_view_contact(basis, dynamic);
@@ -121,13 +125,14 @@ int rc_advance_contact(rc_track_contact *own, double *dynamic, double step, cons
         rc_take_contact(own, &at, given);
     for (double part = 1.0; part <= parts; ++part) {
         reach(own, &at, given, part / parts, step, linear);
-        if (!advance(own, dynamic, &at, step / parts))
-            return 0;
+        const rc_advance made = advance(own, dynamic, &at, step / parts);
+        if (made != RC_MADE)
+            return made;
     }
     if (linear)
         rc_remember(&at.history, given, step);
     *at.passed = linear ? 0.0 : step;
     for (size_t i = 0; i < basis->wheels; ++i)
         at.ahead[i] = fmax(1.5 * state.force[i] - 0.5 * own->force[i], 0.0);
-    return 1;
+    return RC_MADE;
 }

@@ -22,11 +22,13 @@ rc_status rc_read_wheels(rc_model *model)
 {
     size_t count;
     const int64_t *structure = rc_find_section(&model->resource, "structure", RC_INT64, &count);
-    if (structure == NULL || count != 1 || structure[0] < 1 || structure[0] > MOST_WHEELS)
-        return rc_fail(model, RC_ERROR, "the resource does not say how many wheels there are; "
-                                        "build the FMU again");
+    if (structure == NULL || count != 2 || structure[0] < 1 || structure[0] > MOST_WHEELS ||
+        structure[1] < 1 || structure[1] > structure[0] || structure[0] % structure[1] != 0)
+        return rc_fail(model, RC_ERROR, "the resource does not say how many wheels there are in how "
+                                        "many bogies; build the FMU again");
     model->dimensions[RC_WHEELS] = (size_t)structure[0];
     model->dimensions[RC_FOLLOWERS] = (size_t)structure[0] - 1;
+    model->dimensions[RC_BOGIES] = (size_t)structure[1];
     return RC_OK;
 }
 
@@ -117,12 +119,15 @@ static rc_status set_start_values(rc_model *model)
             numbers += group->count;
             continue;
         }
-        const char *zero = text == NULL ? NULL : memchr(text, 0, (size_t)(end - text));
-        if (zero == NULL || zero - text >= RC_TEXT_SIZE)
-            return rc_fail(model, RC_ERROR, "the resource has no start value of %s; build the "
-                                            "FMU again", group->name);
-        memcpy(model->texts + RC_TEXT_SIZE * model->slots[g], text, (size_t)(zero - text));
-        text = zero + 1;
+        for (uint32_t i = 0; i < group->count; ++i) {
+            const char *zero = text == NULL ? NULL : memchr(text, 0, (size_t)(end - text));
+            if (zero == NULL || zero - text >= RC_TEXT_SIZE)
+                return rc_fail(model, RC_ERROR, "the resource has no start value of %s; build the "
+                                                "FMU again", group->name);
+            memcpy(model->texts + RC_TEXT_SIZE * (model->slots[g] + i), text,
+                   (size_t)(zero - text));
+            text = zero + 1;
+        }
     }
     if (text != end)
         return rc_fail(model, RC_ERROR, "the resource has more start texts than the model; build "

@@ -81,6 +81,31 @@ int rc_make_monotone(rc_curve *curve, const double *x, const double *y, size_t p
     return made;
 }
 
+int rc_make_periodic(rc_curve *curve, const double *x, const double *y, size_t points,
+                     double period)
+{
+    double *around = malloc(sizeof(double) * (2 * (points + 1) + 2 * points));
+    if (around == NULL)
+        return 0;
+    double *values = around + points + 1, *slopes = values + points + 1;
+    memcpy(around, x, sizeof(double) * points);
+    memcpy(values, y, sizeof(double) * points);
+    around[points] = x[0] + period;
+    values[points] = y[0];
+    double h0 = around[points] - around[points - 1];
+    double chord0 = (values[points] - values[points - 1]) / h0;
+    for (size_t i = 0; i < points; ++i) {
+        const double h1 = around[i + 1] - around[i], chord1 = (values[i + 1] - values[i]) / h1;
+        slopes[2 * i] = inner_slope(h0, h1, chord0, chord1);
+        slopes[2 * ((i + points - 1) % points) + 1] = slopes[2 * i];
+        h0 = h1;
+        chord0 = chord1;
+    }
+    const int made = rc_make_cubic(curve, around, values, slopes, points + 1);
+    free(around);
+    return made;
+}
+
 /* The piece that holds x: breaks[piece] <= x < breaks[piece + 1]. */
 static size_t find_piece(const rc_curve *curve, double x)
 {

@@ -15,6 +15,10 @@ typedef struct {
 /* Make a curve from points of strictly increasing x; 0 if there is not enough memory. */
 int rc_make_linear(rc_curve *curve, const double *x, const double *y, size_t points);
 int rc_make_monotone(rc_curve *curve, const double *x, const double *y, size_t points);
+/* One period of a curve that goes on behind the last point at the first one, `period` further on
+ * than it was. */
+int rc_make_periodic(rc_curve *curve, const double *x, const double *y, size_t points,
+                     double period);
 /* `slopes` holds the slope at the left and at the right end of every piece. */
 int rc_make_cubic(rc_curve *curve, const double *x, const double *y, const double *slopes,
                   size_t points);

@@ -1,10 +1,6 @@
 /* What the wheels roll over, and how they roll over it; twin of vehicle_fmu/excitation.py and
  * running_surface.py. */
-#include <math.h>
-
 #include "vehicle.h"
-
-#define SUBSTEP_ROUNDING 1e-9 /* n longest substeps are n substeps, whatever the rounding */
 
 double rc_leading_position(const rc_vehicle *own, double start, double time)
 {
@@ -13,28 +9,30 @@ double rc_leading_position(const rc_vehicle *own, double start, double time)
 
 double rc_drop(const rc_vehicle *own, size_t wheel, double leading)
 {
-    return rc_surface_drop(&own->surfaces, wheel, leading - (double)wheel * own->axle_base);
+    return rc_surface_drop(&own->surfaces, wheel, leading - own->offsets[wheel]);
+}
+
+double rc_level(const rc_vehicle *own, size_t wheel, const rc_way *over, size_t k, size_t halves)
+{
+    const int last = k == halves;
+    const double count = (double)halves, part = (double)k;
+    const double rise = (over->rail_end - over->rail_start) / count;
+    const double time = last ? over->time + over->step : over->time + part * over->step / count;
+    const double low = rc_drop(own, wheel, rc_leading_position(own, over->start, time));
+    return last ? over->rail_end + low : over->rail_start + part * rise + low;
 }
 
 rc_wheel_motion rc_roll_wheel(const rc_vehicle *own, size_t wheel, const rc_way *over,
                               rc_wheel_motion motion, rc_wheel_motion *change)
 {
-    const size_t substeps =
-        (size_t)ceil(over->step / own->substep * (1.0 - SUBSTEP_ROUNDING));
-    const size_t halves = 2 * substeps;
-    const double count = (double)halves, h = over->step / (double)substeps;
-    const double rise = (over->rail_end - over->rail_start) / count;
-    const double more = (over->rise_end - over->rise_start) / count;
+    const size_t substeps = rc_substeps(over->step, own->substep), halves = 2 * substeps;
+    const double h = over->step / (double)substeps;
+    const double more = (over->rise_end - over->rise_start) / (double)halves;
     double level[3], lift[3];
     for (size_t k = 0; k <= halves; ++k) {
-        const int last = k == halves;
-        const double part = (double)k;
-        const double time = last ? over->time + over->step
-                                 : over->time + part * over->step / count;
-        const double low = rc_drop(own, wheel, rc_leading_position(own, over->start, time));
         const size_t place = k == 0 ? 0 : 2 - k % 2;
-        level[place] = last ? over->rail_end + low : over->rail_start + part * rise + low;
-        lift[place] = last ? over->rise_end : over->rise_start + part * more;
+        level[place] = rc_level(own, wheel, over, k, halves);
+        lift[place] = k == halves ? over->rise_end : over->rise_start + (double)k * more;
         if (k == 0 || place != 2)
             continue;
         const rc_surface surface = {level[0], level[1], level[2]};

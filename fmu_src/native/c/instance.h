@@ -12,6 +12,7 @@ typedef enum {
     RC_FOLLOWERS, /* the wheels behind the first, counted from 2 */
     RC_GAUGES,
     RC_SUPPORTS,
+    RC_BOGIES,
     RC_DIMENSIONS
 } rc_dimension;
 
@@ -88,6 +89,7 @@ static inline const double *rc_values(const rc_model *model, size_t group)
     return model->values + model->slots[group];
 }
 
+/* The first text of a group; the next ones are RC_TEXT_SIZE bytes further on each. */
 static inline const char *rc_text(const rc_model *model, size_t group)
 {
     return model->texts + RC_TEXT_SIZE * model->slots[group];
@@ -96,8 +98,11 @@ static inline const char *rc_text(const rc_model *model, size_t group)
 /* A section of float64 of exactly that many values, or NULL and a sentence. */
 const double *rc_require_section(rc_model *model, const char *name, size_t count);
 
-/* Reads the number of wheels of a model that has nothing else to count. */
+/* Reads the numbers of wheels and bogies of a model that has nothing else to count. */
 rc_status rc_read_wheels(rc_model *model);
+
+/* Takes how far every wheel runs behind the first, whose 0 no parameter says; all finite. */
+rc_status rc_take_offsets(rc_model *model, size_t group, double *offsets);
 
 /* Refuse a parameter that is no finite number, or none above zero. */
 rc_status rc_require_finite(rc_model *model, size_t group, const char *unit, const char *remedy);

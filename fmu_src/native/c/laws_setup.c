@@ -124,6 +124,25 @@ static rc_status read_pads(rc_model *model, rc_laws *laws)
     return rc_fail(model, RC_ERROR, "track: pad is '%s'; it must be 'linear' or a .csv file", path);
 }
 
+/* Refuses what increments cannot make of a track. */
+static rc_status check_track(rc_model *model, const rc_track *track)
+{
+    const rc_laws *laws = &track->laws;
+    const int beds_alike = all_are(laws->ballast_stiffness_factor, laws->supports, 1.0) &&
+                           all_are(laws->ballast_damping_factor, laws->supports, 1.0) &&
+                           all_are(laws->gap, laws->supports, 0.0);
+    const int pads_alike = all_are(laws->pad_stiffness_factor, laws->supports, 1.0) &&
+                           all_are(laws->pad_damping_factor, laws->supports, 1.0) &&
+                           all_are(laws->fastened, laws->supports, 1.0);
+    if (*rc_values(model, ENDLESS) != 0.0 && !(beds_alike && pads_alike))
+        return rc_fail(model, RC_ERROR, "track: endless is true, but its supports differ; leave "
+                                        "one of the two out");
+    if (track->basis.sleeper_shape != NULL && !(beds_alike && laws->pulls))
+        return rc_fail(model, RC_ERROR, "track: sleepers bend, but their ballast differs or does "
+                                        "not pull; leave one of the two out");
+    return RC_OK;
+}
+
 rc_status rc_read_laws(rc_model *model, rc_track *track)
 {
     const rc_basis *basis = &track->basis;
@@ -145,5 +164,5 @@ rc_status rc_read_laws(rc_model *model, rc_track *track)
         rc_free_laws(laws);
         return RC_ERROR;
     }
-    return RC_OK;
+    return check_track(model, track);
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "rows.h"
+#include "window.h"
 
 /* Dual rows of the modal state and of its rate, and the wheels' places. */
 typedef struct {
@@ -13,11 +14,10 @@ typedef struct {
     size_t increments;
 } view;
 
-static view look(rc_track *track, const rc_track_state *state)
+void rc_view_motion(const rc_basis *basis, const rc_track_state *state, double *modal,
+                    double *rate)
 {
-    const rc_basis *basis = &track->basis;
     const size_t half = basis->half;
-    double *modal = track->row, *rate = track->other_row;
     rc_multiply(rate, basis->eigenvalues, state->modal, half);
     for (size_t n = 0; n < half; ++n) {
         const double weight = basis->weight[n];
@@ -26,9 +26,15 @@ static view look(rc_track *track, const rc_track_state *state)
         rate[n] = weight * (rate[n] + state->load[n]);
         rate[half + n] = -weight * (rate[half + n] + state->load[half + n]);
     }
-    for (size_t i = 0; i < basis->wheels; ++i)
-        rc_locate(basis, state->position[i], &track->points[i]);
-    return (view){basis, state, track->points, modal, rate, rc_increments(&track->laws)};
+}
+
+static view look(rc_track *track, const rc_track_state *state)
+{
+    const rc_basis *basis = &track->basis;
+    rc_view_motion(basis, state, track->row, track->other_row);
+    (void)rc_find_wheels(track, state, state->position); /* a step has led there */
+    return (view){basis,           state,      track->points, track->row, track->other_row,
+                  rc_increments(&track->laws)};
 }
 
 /* A line of residual flexibility times the forces on the coordinates. */
@@ -76,6 +82,55 @@ static double rate(const view *at, size_t coordinate)
            yield_rate(at, rc_flexibility(at->basis, coordinate));
 }
 
+/* At its rail seat, which moves as the rail above it less the deformation of the pad. */
+static double sleeper_displacement(const view *at, size_t support)
+{
+    const rc_basis *basis = at->basis;
+    if (basis->sleeper_shape == NULL)
+        return displacement(at, rc_ballast(basis, support));
+    return displacement(at, rc_above(basis, support)) - displacement(at, rc_pad(basis, support));
+}
+
+static const double *sleeper_row(const view *at, size_t row)
+{
+    return at->basis->sleeper_shape + row * at->basis->length;
+}
+
+static const double *sleeper_line(const view *at, size_t row)
+{
+    return at->basis->sleeper_flexibility + row * at->basis->coordinates;
+}
+
+/* Of a sleeper that bends: bending moments, or the mean deflection. */
+static double observed(const view *at, size_t row)
+{
+    return rc_product(sleeper_row(at, row), at->modal, at->basis->length) +
+           yield(at, sleeper_line(at, row));
+}
+
+static double sleeper_moment(const view *at, size_t row)
+{
+    return at->basis->sleeper_shape == NULL ? 0.0 : observed(at, row);
+}
+
+/* Mean deformation of the ballast under a sleeper, and its rate. */
+static double ballast_deformation(const view *at, size_t support)
+{
+    const rc_basis *basis = at->basis;
+    return basis->sleeper_shape == NULL ? displacement(at, rc_ballast(basis, support))
+                                        : observed(at, 2 * basis->supports + support);
+}
+
+static double ballast_rate(const view *at, size_t support)
+{
+    const rc_basis *basis = at->basis;
+    const size_t row = 2 * basis->supports + support;
+    if (basis->sleeper_shape == NULL)
+        return rate(at, rc_ballast(basis, support));
+    return rc_product(sleeper_row(at, row), at->modal_rate, basis->length) +
+           yield_rate(at, sleeper_line(at, row));
+}
+
 static double rail_velocity(const view *at, size_t wheel)
 {
     const rc_rail_point *point = &at->wheels[wheel];
@@ -119,11 +174,24 @@ static double bending_moment(const view *at, const rc_rail_point *point)
     return (1.0 - point->xi) * left + point->xi * right + inside;
 }
 
+/* Zero beyond the window, where the wheels are too far away to bend the rail. */
+static double gauge_moment(const view *at, double position)
+{
+    rc_rail_point point;
+    if (!rc_locate(at->basis, position - rc_window_position(at->basis, at->state), &point))
+        return 0.0;
+    return bending_moment(at, &point);
+}
+
 void rc_observe(rc_track *track, const rc_track_state *state, rc_observed what, double *values)
 {
     const rc_basis *basis = &track->basis;
     if (what == RC_RAIL_DISPLACEMENT) {
         memcpy(values, state->displacement, basis->wheels * sizeof(double));
+        return;
+    }
+    if (what == RC_WINDOW_POSITION) {
+        *values = rc_window_position(basis, state);
         return;
     }
     const view at = look(track, state);
@@ -138,11 +206,11 @@ void rc_observe(rc_track *track, const rc_track_state *state, rc_observed what, 
         break;
     case RC_GAUGE_MOMENT:
         for (size_t k = 0; k < basis->gauges; ++k)
-            values[k] = bending_moment(&at, &track->gauges[k]);
+            values[k] = gauge_moment(&at, track->gauge_position[k]);
         break;
     case RC_SLEEPER_DISPLACEMENT:
         for (size_t s = 0; s < basis->supports; ++s)
-            values[s] = displacement(&at, rc_ballast(basis, s));
+            values[s] = sleeper_displacement(&at, s);
         break;
     case RC_PAD_FORCE:
         for (size_t s = 0; s < basis->supports; ++s)
@@ -150,10 +218,17 @@ void rc_observe(rc_track *track, const rc_track_state *state, rc_observed what, 
                         basis->pad_damping * rate(&at, rc_pad(basis, s)) +
                         state->increment[basis->supports + s];
         break;
-    default: /* RC_BALLAST_FORCE */
+    case RC_BALLAST_FORCE:
         for (size_t s = 0; s < basis->supports; ++s)
-            values[s] = basis->ballast_stiffness * displacement(&at, rc_ballast(basis, s)) +
-                        basis->ballast_damping * rate(&at, rc_ballast(basis, s)) +
-                        state->increment[s];
+            values[s] = basis->ballast_stiffness * ballast_deformation(&at, s) +
+                        basis->ballast_damping * ballast_rate(&at, s) + state->increment[s];
+        break;
+    case RC_SLEEPER_MOMENT:
+        for (size_t s = 0; s < basis->supports; ++s)
+            values[s] = sleeper_moment(&at, s);
+        break;
+    default: /* RC_SLEEPER_CENTRE_MOMENT */
+        for (size_t s = 0; s < basis->supports; ++s)
+            values[s] = sleeper_moment(&at, basis->supports + s);
     }
 }

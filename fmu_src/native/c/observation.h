@@ -15,8 +15,15 @@ typedef enum {
     RC_GAUGE_MOMENT,
     RC_SLEEPER_DISPLACEMENT,
     RC_PAD_FORCE,
-    RC_BALLAST_FORCE
+    RC_BALLAST_FORCE,
+    RC_SLEEPER_MOMENT,
+    RC_SLEEPER_CENTRE_MOMENT,
+    RC_WINDOW_POSITION
 } rc_observed;
+
+/* Dual rows of the modal state and of its rate. */
+void rc_view_motion(const rc_basis *basis, const rc_track_state *state, double *modal,
+                    double *rate);
 
 void rc_observe(rc_track *track, const rc_track_state *state, rc_observed what, double *values);
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "rows.h"
-#include "track.h"
+#include "window.h"
 
 /* Places among the rows of track->duals. */
 static size_t drive_at(size_t wheel)
@@ -179,11 +179,12 @@ void rc_prepare_operator(rc_track *track, const double *dynamic, double step, in
     memcpy(op->start, dynamic, rc_count_state(basis) * sizeof(double));
     memcpy(op->position, positions, basis->wheels * sizeof(double));
     const rc_track_state state = rc_view_state(basis, op->start);
+    const double begin = rc_window_position(basis, &state);
     for (size_t i = 0; i < basis->wheels; ++i) {
-        rc_locate(basis, positions[i], &op->wheels[i]); /* was found to be on the track before */
+        rc_locate(basis, positions[i] - begin, &op->wheels[i]); /* was found to be there before */
         rc_modes_at(basis, &op->wheels[i], op->wheels[i].shape, op->contact + i * basis->length);
     }
-    rc_choose_supports(track, positions);
+    rc_choose_supports(track, &state, positions);
     rc_copy_active(&op->active, &track->active);
     op->exponential = rc_coefficients(&track->exponentials, basis, step, linear, &op->active,
                                       track->scratch);

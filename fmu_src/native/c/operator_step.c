@@ -104,5 +104,6 @@ int rc_differentiate_operator(rc_track *track, const double *force_change, rc_tr
         change->position[i] = end.position[i];
         change->speed[i] = end.speed[i];
     }
+    *change->offset = *end.offset;
     return 1;
 }

@@ -5,11 +5,12 @@
 
 #include "flat.h"
 #include "instance.h"
+#include "tread.h"
 
 /* Groups of parameters, in the order of the declaration, from wherever they begin. */
 enum {
     RC_RAIL_IRREGULARITY, RC_FLAT_SHAPE, RC_FLAT_LENGTH, RC_FLAT_DEPTH, RC_FLAT_WHEEL,
-    RC_FLAT_POSITION, RC_FLAT_PERIODIC, RC_FLAT_ROLLED,
+    RC_FLAT_POSITION, RC_FLAT_PERIODIC, RC_FLAT_ROLLED, RC_OUT_OF_ROUNDNESS,
     RC_SURFACE_PARAMETER_COUNT
 };
 
@@ -21,11 +22,15 @@ enum {
     [(first) + RC_FLAT_WHEEL] = {"flat.wheel", RC_INTEGER, RC_PARAMETER, RC_ONE},                  \
     [(first) + RC_FLAT_POSITION] = {"flat.position", RC_REAL, RC_PARAMETER, RC_ONE},               \
     [(first) + RC_FLAT_PERIODIC] = {"flat.periodic", RC_BOOLEAN, RC_PARAMETER, RC_ONE},            \
-    [(first) + RC_FLAT_ROLLED] = {"flat.rolled", RC_BOOLEAN, RC_PARAMETER, RC_ONE}
+    [(first) + RC_FLAT_ROLLED] = {"flat.rolled", RC_BOOLEAN, RC_PARAMETER, RC_ONE},               \
+    [(first) + RC_OUT_OF_ROUNDNESS] = {"wheel[#].out_of_roundness", RC_TEXT, RC_PARAMETER,         \
+                                       RC_WHEELS}
 
 typedef struct {
     rc_flat flat;
     rc_curve irregularity;
+    rc_tread *treads; /* of every wheel; NULL where all are round */
+    size_t wheels;
 } rc_surfaces;
 
 /* Makes the surfaces from the parameters of the model, whose groups begin at `first`. */

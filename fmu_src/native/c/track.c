@@ -1,5 +1,6 @@
 /* The track as a model: its variables, its start, its steps. */
 #include "track_setup.h"
+#include "window.h"
 
 #include <math.h>
 #include <string.h>
@@ -40,8 +41,7 @@ static rc_status prepare(rc_model *model)
     return rc_prepare_track(model, model->own);
 }
 
-/* Refuses wheels beyond the track and forces that are no numbers; leaves the places of the wheels
- * in track->points. */
+/* Refuses wheels beyond the track and forces that are no numbers. */
 static rc_status check_inputs(rc_model *model, rc_status otherwise)
 {
     rc_track *track = model->own;
@@ -52,7 +52,7 @@ static rc_status check_inputs(rc_model *model, rc_status otherwise)
                            "track: contact force %g N of wheel %zu must be a finite number of at "
                            "most %g N; look for the cause in the vehicle", forces[i], i + 1,
                            RC_MOST_FORCE);
-    return rc_locate_wheels(model, track, rc_values(model, POSITION), otherwise);
+    return rc_check_wheels(model, track, rc_values(model, POSITION), otherwise);
 }
 
 static rc_status start(rc_model *model)
@@ -70,14 +70,15 @@ double rc_count_parts(double step)
     return fmax(1.0, ceil(step / RC_LONGEST_STEP - 1e-9));
 }
 
-int rc_advance_track(rc_track *track, double *dynamic, double step, const double *positions,
-                     const double *forces)
+rc_advance rc_advance_track(rc_track *track, double *dynamic, double step,
+                            const double *positions, const double *forces)
 {
     const rc_basis *basis = &track->basis;
     const size_t size = rc_count_state(basis) * sizeof(double);
     const double parts = rc_count_parts(step);
     rc_track_state state = rc_view_state(basis, dynamic);
-    if (parts > 1.0)
+    const int kept = parts > 1.0 || track->endless;
+    if (kept)
         memcpy(track->before, dynamic, size);
     const rc_track_state from = rc_view_state(basis, track->before);
     for (double part = 1.0; part <= parts; ++part) {
@@ -90,13 +91,17 @@ int rc_advance_track(rc_track *track, double *dynamic, double step, const double
             track->force[i] =
                 whole ? forces[i] : from.force[i] + share * (forces[i] - from.force[i]);
         }
+        if (track->endless && !rc_follow_wheels(track, &state, track->position)) {
+            memcpy(dynamic, track->before, size);
+            return RC_LOST;
+        }
         rc_prepare_operator(track, dynamic, step / parts, track->linear, track->position);
         if (!rc_apply_operator(track, &state, track->force) || !rc_is_finite(basis, &state)) {
-            memcpy(dynamic, parts > 1.0 ? track->before : track->operator_.start, size);
-            return 0;
+            memcpy(dynamic, kept ? track->before : track->operator_.start, size);
+            return RC_NOT_CONVERGED;
         }
     }
-    return 1;
+    return RC_MADE;
 }
 
 static rc_status step_track(rc_model *model, double step, int linear)
@@ -109,8 +114,11 @@ static rc_status step_track(rc_model *model, double step, int linear)
                        "track: a step of %g s is more than %g parts of %g s; use a shorter step",
                        step, MOST_PARTS, RC_LONGEST_STEP);
     track->linear = linear;
-    if (!rc_advance_track(track, model->dynamic, step, rc_values(model, POSITION),
-                          rc_values(model, CONTACT_FORCE)))
+    const rc_advance advance = rc_advance_track(
+        track, model->dynamic, step, rc_values(model, POSITION), rc_values(model, CONTACT_FORCE));
+    if (advance == RC_LOST)
+        return rc_refuse_lost(model, track, RC_DISCARD);
+    if (advance != RC_MADE)
         return rc_fail(model, RC_DISCARD, "track: the state-dependent forces did not converge over "
                                           "a step of %.3g s; use a shorter step, or a longer one "
                                           "if it is next to nothing", step);
@@ -122,7 +130,8 @@ static rc_status jump_track(rc_model *model)
 {
     rc_track *track = model->own;
     rc_track_state state = rc_view_state(&track->basis, model->dynamic);
-    if (check_inputs(model, RC_DISCARD) != RC_OK)
+    if (check_inputs(model, RC_DISCARD) != RC_OK ||
+        rc_locate_wheels(model, track, rc_values(model, POSITION), RC_DISCARD) != RC_OK)
         return RC_DISCARD;
     const size_t bytes = track->basis.wheels * sizeof(double);
     memcpy(state.position, rc_values(model, POSITION), bytes);

@@ -18,7 +18,14 @@ typedef struct {
     double *increment, *increment_rate; /* (2 supports): of ballast, then pads */
     double *branch_force, *compression, *known; /* (supports): what viscoelastic pads remember */
     double *modal, *load;                                         /* rows */
+    double *offset; /* bays by which the window of an endless track has moved */
 } rc_track_state;
+
+typedef enum {
+    RC_NOT_CONVERGED, /* the increments, or the contact forces */
+    RC_MADE,
+    RC_LOST /* a wheel has left the window, see window.h */
+} rc_advance;
 
 /* One step to given wheel positions, for any contact forces; twin of track_fmu/step_operator.py.
  * Matrices per contact force or per increment hold a column as one line of `stride` numbers. */
@@ -45,10 +52,12 @@ typedef struct {
 typedef struct {
     rc_basis basis;
     rc_laws laws;
+    int endless;
     int linear; /* of the last step */
     size_t per_wheel, room; /* room: most active supports, filled up */
     double initial_speed;
-    rc_rail_point *gauges, *points; /* (gauges), (wheels) */
+    double *gauge_position;         /* (gauges) */
+    rc_rail_point *points;          /* (wheels) */
     rc_exponentials exponentials;
     rc_operator operator_;
     rc_active active;
@@ -57,6 +66,9 @@ typedef struct {
     const double **dual_rows;
     double *products, *scratch, *small; /* see the functions that use them */
     double *row, *other_row;
+    double *inside; /* (wheels): positions from the beginning of the window */
+    double *field;  /* see window_shift.c */
+    double lost, lost_window; /* m; see rc_find_wheels */
     double *before;              /* dynamic values at the beginning of a divided step */
     double *after, *change;      /* dynamic values, where derivatives are worked out */
     double *position, *force;    /* (wheels): within a divided step */
@@ -73,13 +85,13 @@ rc_status rc_claim_track(rc_model *model, rc_track *track);
 void rc_release_track(rc_track *track);
 
 /* Chooses the active supports for wheels at these positions. */
-void rc_choose_supports(rc_track *track, const double *positions);
+void rc_choose_supports(rc_track *track, const rc_track_state *state, const double *positions);
 
 /* Nonlinear static equilibrium under wheels at track->points; twin of static_start.py. 0 if it is
  * not found. */
 int rc_static_start(rc_track *track, rc_track_state *state, const double *forces);
 
-/* Makes the operator of a step unless it is made already. */
+/* Makes the operator of a step to wheels within the window, unless it is made already. */
 void rc_prepare_operator(rc_track *track, const double *dynamic, double step, int linear,
                          const double *positions);
 
@@ -128,9 +140,9 @@ int rc_is_finite(const rc_basis *basis, const rc_track_state *state);
 /* Into how many parts a step is divided. */
 double rc_count_parts(double step);
 
-/* One step to positions and forces, divided where it is long; 0 if the increments do not converge,
- * the dynamic values being as before. */
-int rc_advance_track(rc_track *track, double *dynamic, double step, const double *positions,
+/* One step to positions and forces, divided where it is long; the dynamic values are as before
+ * unless it is made. */
+rc_advance rc_advance_track(rc_track *track, double *dynamic, double step, const double *positions,
                      const double *forces);
 
 /* See rc_class. */

@@ -86,8 +86,7 @@ static const double *given_inputs(const rc_model *model)
     return rc_values(model, POSITION);
 }
 
-/* Refuses wheels beyond the track and displacements that are no numbers; leaves the places of the
- * wheels in track->points. */
+/* Refuses wheels beyond the track and displacements that are no numbers. */
 static rc_status check_inputs(rc_model *model, rc_status otherwise)
 {
     rc_track *track = &((rc_track_contact *)model->own)->track;
@@ -97,7 +96,7 @@ static rc_status check_inputs(rc_model *model, rc_status otherwise)
             return rc_fail(model, otherwise, "track: displacement %g m of wheel %zu must be a "
                                              "finite number; look for the cause in the vehicle",
                            displacements[i], i + 1);
-    return rc_locate_wheels(model, track, given_inputs(model), otherwise);
+    return rc_check_wheels(model, track, given_inputs(model), otherwise);
 }
 
 static rc_status start(rc_model *model)
@@ -139,8 +138,11 @@ static rc_status step_contact(rc_model *model, double step, int linear)
         rc_doubt_contact(own, &at, step, given_inputs(model), model->warning, RC_MESSAGE_SIZE);
     memcpy(own->given, given_inputs(model), 2 * own->track.basis.wheels * sizeof(double));
     memcpy(own->before, model->dynamic, bytes);
-    if (!rc_advance_contact(own, model->dynamic, step, own->given, linear)) {
+    const rc_advance advance = rc_advance_contact(own, model->dynamic, step, own->given, linear);
+    if (advance != RC_MADE) {
         memcpy(model->dynamic, own->before, bytes);
+        if (advance == RC_LOST)
+            return rc_refuse_lost(model, &own->track, RC_DISCARD);
         return rc_fail(model, RC_DISCARD, "track: the contact forces did not converge over a step "
                                           "of %.3g s; use a shorter step", step);
     }
@@ -197,10 +199,10 @@ static rc_status repeat(rc_model *model, const double *seed, double factor, doub
     rc_track_contact *own = model->own;
     for (size_t k = 0; k < 2 * own->track.basis.wheels; ++k)
         own->moved[k] = own->given[k] + factor * seed[k];
-    if (rc_locate_wheels(model, &own->track, own->moved, RC_DISCARD) != RC_OK)
+    if (rc_check_wheels(model, &own->track, own->moved, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
     memcpy(own->after, own->before, model->dynamic_count * sizeof(double));
-    if (!rc_advance_contact(own, own->after, own->last_step, own->moved, own->linear))
+    if (rc_advance_contact(own, own->after, own->last_step, own->moved, own->linear) != RC_MADE)
         return rc_fail(model, RC_DISCARD, "track: the last step has no derivative");
     for (size_t group = CONTACT_FORCE; group < LINEAR_INPUTS; ++group)
         read_values(own, own->after, group, outputs + model->slots[group]);

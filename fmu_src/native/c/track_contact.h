@@ -52,8 +52,8 @@ void rc_doubt_contact(const rc_track_contact *own, const rc_contact_state *at, d
 /* Into how many parts a step is divided. */
 double rc_count_contact_parts(double step);
 
-/* One step of the dynamic values; 0 if the forces do not converge, the values being spoilt then. */
-int rc_advance_contact(rc_track_contact *own, double *dynamic, double step, const double *given,
-                       int linear);
+/* One step of the dynamic values, which are spoilt unless it is made. */
+rc_advance rc_advance_contact(rc_track_contact *own, double *dynamic, double step,
+                              const double *given, int linear);
 
 #endif

@@ -27,6 +27,7 @@ static rc_status differentiate(rc_model *model, const double *force_seed, double
         !rc_differentiate_operator(track, force_seed, &change))
         return rc_fail(model, RC_DISCARD, "track: the last step has no derivative");
     observe_all(model, &change, changes);
+    changes[model->output_count - 1] = 0.0; /* the window, which forces do not move */
     return RC_OK;
 }
 
@@ -39,11 +40,12 @@ static rc_status repeat(rc_model *model, const double *seed, double factor, doub
     for (size_t i = 0; i < wheels; ++i) {
         track->moved[i] = present.position[i] + factor * seed[i];
         track->pressed[i] = present.force[i] + factor * seed[wheels + i];
-        if (!rc_locate(&track->basis, track->moved[i], &track->points[i]))
-            return rc_refuse_position(model, track, RC_DISCARD, track->moved[i]);
     }
+    if (rc_check_wheels(model, track, track->moved, RC_DISCARD) != RC_OK)
+        return RC_DISCARD;
     memcpy(track->after, track->before, rc_count_state(&track->basis) * sizeof(double));
-    if (!rc_advance_track(track, track->after, track->last_step, track->moved, track->pressed))
+    if (rc_advance_track(track, track->after, track->last_step, track->moved, track->pressed) !=
+        RC_MADE)
         return rc_fail(model, RC_DISCARD, "track: the last step has no derivative");
     const rc_track_state state = rc_view_state(&track->basis, track->after);
     observe_all(model, &state, outputs);

@@ -2,11 +2,11 @@
 #include <stdlib.h>
 
 #include "dense.h"
-#include "track.h"
+#include "window.h"
 
 size_t rc_count_state(const rc_basis *basis)
 {
-    return 5 * basis->wheels + 7 * basis->supports + 2 * basis->length;
+    return 5 * basis->wheels + 7 * basis->supports + 2 * basis->length + 1;
 }
 
 rc_track_state rc_view_state(const rc_basis *basis, double *values)
@@ -26,7 +26,8 @@ rc_track_state rc_view_state(const rc_basis *basis, double *values)
                             .compression = memory + supports,
                             .known = memory + 2 * supports,
                             .modal = rows,
-                            .load = rows + basis->length};
+                            .load = rows + basis->length,
+                            .offset = rows + 2 * basis->length};
 }
 
 int rc_is_finite(const rc_basis *basis, const rc_track_state *state)
@@ -108,7 +109,7 @@ static void take_all(store *from, rc_track *track, size_t room)
     const rc_basis *basis = &track->basis;
     const size_t wheels = basis->wheels, length = basis->length, duals = 2 + 3 * wheels;
     const size_t state = rc_count_state(basis);
-    track->gauges = take(from, basis->gauges, sizeof(rc_rail_point));
+    track->gauge_position = numbers(from, basis->gauges);
     track->points = take(from, wheels, sizeof(rc_rail_point));
     for (size_t i = 0; i < RC_REMEMBERED_STEPS; ++i)
         take_exponential(from, &track->exponentials.slots[i], length, room);
@@ -125,6 +126,8 @@ static void take_all(store *from, rc_track *track, size_t room)
     track->small = numbers(from, RC_SMALL_ROWS * room);
     track->row = numbers(from, length);
     track->other_row = numbers(from, length);
+    track->inside = numbers(from, wheels);
+    track->field = numbers(from, 4 * rc_field_size(basis));
     track->before = numbers(from, state);
     track->after = numbers(from, state);
     track->change = numbers(from, state);
@@ -170,12 +173,15 @@ void rc_release_track(rc_track *track)
     rc_free_laws(&track->laws);
 }
 
-void rc_choose_supports(rc_track *track, const double *positions)
+void rc_choose_supports(rc_track *track, const rc_track_state *state, const double *positions)
 {
+    const double begin = rc_window_position(&track->basis, state);
+    for (size_t i = 0; i < track->basis.wheels; ++i)
+        track->inside[i] = positions[i] - begin;
     const int ballast = track->laws.ballast != RC_NO_INCREMENT;
     const int pads = track->laws.pad != RC_NO_INCREMENT;
     if (ballast || pads)
-        rc_choose_active(&track->active, &track->basis, positions, track->per_wheel, ballast, pads,
+        rc_choose_active(&track->active, &track->basis, track->inside, track->per_wheel, ballast, pads,
                          track->first);
     else
         track->active.count = track->active.stride = 0;

@@ -57,6 +57,19 @@ rc_status rc_require_positive(rc_model *model, size_t group, const char *unit, c
                    model->groups[group].name, value, unit, remedy);
 }
 
+rc_status rc_take_offsets(rc_model *model, size_t group, double *offsets)
+{
+    offsets[0] = 0.0;
+    for (size_t i = 1; i < model->dimensions[RC_WHEELS]; ++i) {
+        offsets[i] = rc_values(model, group)[i - 1];
+        if (!isfinite(offsets[i]))
+            return rc_fail(model, RC_ERROR, "offset of wheel %zu is %g m; it must be a finite "
+                                            "number: give its way behind wheel 1", i + 1,
+                           offsets[i]);
+    }
+    return RC_OK;
+}
+
 static const char *type_name(rc_type type)
 {
     static const char *const names[] = {"Real", "Integer", "Boolean", "String"};
@@ -170,11 +183,19 @@ rc_status rc_set_group(rc_model *model, size_t number, const double *values)
     return RC_OK;
 }
 
+/* The place of a text. */
+static char *text_of(rc_model *model, uint32_t variable)
+{
+    const size_t group = model->group_of[variable];
+    const size_t index = variable - model->groups[group].first;
+    return model->texts + RC_TEXT_SIZE * (model->slots[group] + index);
+}
+
 rc_status rc_get_text(rc_model *model, uint32_t variable, const char **text)
 {
     if (typed_group(model, variable, RC_TEXT) == NULL)
         return RC_ERROR;
-    *text = rc_text(model, model->group_of[variable]);
+    *text = text_of(model, variable);
     return RC_OK;
 }
 
@@ -187,7 +208,7 @@ rc_status rc_set_text(rc_model *model, uint32_t variable, const char *text)
     if (length >= RC_TEXT_SIZE)
         return rc_fail(model, RC_ERROR, "%s has %zu bytes; at most %d are kept: use a shorter path",
                        group->name, length, RC_TEXT_SIZE - 1);
-    char *place = model->texts + RC_TEXT_SIZE * model->slots[model->group_of[variable]];
+    char *place = text_of(model, variable);
     memset(place, 0, RC_TEXT_SIZE); /* equal parameters are equal bytes */
     memcpy(place, text, length);
     note_change(model);

@@ -13,11 +13,12 @@ static const rc_group_kind KINDS[] = {
     [SPEED_TABLE] = {"speed_table", RC_TEXT, RC_PARAMETER, RC_ONE},
     [WHEEL_MASS] = {"wheel_mass", RC_REAL, RC_PARAMETER, RC_ONE},
     [STATIC_WHEEL_LOAD] = {"static_wheel_load", RC_REAL, RC_PARAMETER, RC_ONE},
-    [AXLE_BASE] = {"axle_base", RC_REAL, RC_PARAMETER, RC_ONE},
     [WHEEL_RADIUS] = {"wheel_radius", RC_REAL, RC_PARAMETER, RC_ONE},
     [HERTZ_COEFFICIENT] = {"hertz_coefficient", RC_REAL, RC_PARAMETER, RC_ONE},
     [INITIAL_POSITION] = {"initial_position", RC_REAL, RC_PARAMETER, RC_ONE},
     [SUBSTEP] = {"substep", RC_REAL, RC_PARAMETER, RC_ONE},
+    [OFFSET] = {"wheel[#].offset", RC_REAL, RC_PARAMETER, RC_FOLLOWERS},
+    RC_SUSPENSION_PARAMETERS(SUSPENSION),
     RC_SURFACE_PARAMETERS(SURFACE),
     [RAIL_DISPLACEMENT] = {"wheel[#].rail_displacement", RC_REAL, RC_INPUT, RC_WHEELS},
     [POSITION] = {"wheel[#].position", RC_REAL, RC_OUTPUT, RC_WHEELS},
@@ -26,6 +27,7 @@ static const rc_group_kind KINDS[] = {
     [VELOCITY] = {"wheel[#].velocity", RC_REAL, RC_OUTPUT, RC_WHEELS},
     [GAP] = {"wheel[#].gap", RC_REAL, RC_OUTPUT, RC_WHEELS},
     [IN_CONTACT] = {"wheel[#].in_contact", RC_BOOLEAN, RC_OUTPUT, RC_WHEELS},
+    RC_BODY_OUTPUTS(BODIES),
     [LINEAR_INPUTS] = {"linear_inputs", RC_BOOLEAN, RC_PARAMETER, RC_ONE},
 };
 
@@ -48,12 +50,47 @@ static rc_status start_vehicle(rc_model *model)
         return RC_ERROR;
     const double delta = rc_hertz_compression(own->wheel.load, own->wheel.coefficient);
     const double leading = rc_leading_position(own, time, time);
+    memset(model->dynamic, 0, model->dynamic_count * sizeof(double));
     *at.start = *at.time = time;
     for (size_t i = 0; i < own->wheels; ++i) {
         at.displacement[i] = rail[i] + rc_drop(own, i, leading) + delta;
-        at.velocity[i] = 0.0;
         at.rail[i] = rail[i];
+        if (own->suspension.coupled)
+            at.origin[i] = at.displacement[i];
     }
+    return RC_OK;
+}
+
+static void roll_wheels(const rc_vehicle *own, const rc_vehicle_state *from,
+                        const rc_vehicle_state *to, const double *rail, double time, double step)
+{
+    for (size_t i = 0; i < own->wheels; ++i) {
+        const rc_way over = {.start = *from->start, .time = time, .step = step,
+                             .rail_start = own->linear ? from->rail[i] : rail[i],
+                             .rail_end = rail[i]};
+        const rc_wheel_motion motion = rc_roll_wheel(
+            own, i, &over, (rc_wheel_motion){from->displacement[i], from->velocity[i]}, NULL);
+        to->displacement[i] = motion.displacement;
+        to->velocity[i] = motion.velocity;
+        to->rail[i] = rail[i];
+    }
+    memset(to->origin, 0, sizeof(double) * (2 * own->suspension.coordinates - own->wheels));
+}
+
+static rc_status check_motion(rc_model *model, const rc_vehicle_state *to, const double *rail)
+{
+    const rc_vehicle *own = model->own;
+    for (size_t i = 0; i < own->wheels; ++i)
+        if (!(isfinite(to->displacement[i]) && isfinite(to->velocity[i])))
+            return rc_fail(model, RC_DISCARD,
+                           "the rail displacement of %g m under wheel %zu drives the wheel to %g m "
+                           "at %g m/s; give a smaller one or a shorter step", rail[i], i + 1,
+                           to->displacement[i], to->velocity[i]);
+    for (size_t c = 0; c < 2 * (own->suspension.coordinates - own->wheels); ++c)
+        if (own->suspension.coupled && !isfinite(to->above[c]))
+            return rc_fail(model, RC_DISCARD,
+                           "the rail displacements drive the bodies above the wheels out of the "
+                           "range of numbers; give smaller ones or a shorter step");
     return RC_OK;
 }
 
@@ -74,21 +111,12 @@ static rc_status step_vehicle(rc_model *model, double step, int linear)
         return rc_fail(model, RC_DISCARD, "wheel 1 would be at %g m at %g s; use a lower speed or a "
                                           "shorter step", leading, model->head->time + step);
     own->linear = linear;
-    for (size_t i = 0; i < own->wheels; ++i) {
-        const rc_way over = {.start = *from.start, .time = model->head->time, .step = step,
-                          .rail_start = own->linear ? from.rail[i] : rail[i],
-                          .rail_end = rail[i]};
-        const rc_wheel_motion motion = rc_roll_wheel(
-            own, i, &over, (rc_wheel_motion){from.displacement[i], from.velocity[i]}, NULL);
-        if (!(isfinite(motion.displacement) && isfinite(motion.velocity)))
-            return rc_fail(model, RC_DISCARD,
-                           "the rail displacement of %g m under wheel %zu drives the wheel to %g m "
-                           "at %g m/s; give a smaller one or a shorter step", rail[i], i + 1,
-                           motion.displacement, motion.velocity);
-        to.displacement[i] = motion.displacement;
-        to.velocity[i] = motion.velocity;
-        to.rail[i] = rail[i];
-    }
+    if (own->suspension.coupled)
+        rc_roll_suspended(own, model->dynamic, own->after, rail, model->head->time, step);
+    else
+        roll_wheels(own, &from, &to, rail, model->head->time, step);
+    if (check_motion(model, &to, rail) != RC_OK)
+        return RC_DISCARD;
     *to.start = *from.start;
     *from.time = model->head->time; /* the host's, which need not be a sum of steps */
     *to.time = *from.time + step;
@@ -108,59 +136,9 @@ static rc_status jump_vehicle(rc_model *model)
     return RC_OK;
 }
 
-static double compression(const rc_vehicle *own, const rc_vehicle_state *at, size_t wheel)
-{
-    const double leading = rc_leading_position(own, *at->start, *at->time);
-    return at->displacement[wheel] - (at->rail[wheel] + rc_drop(own, wheel, leading));
-}
-
 static void read_vehicle(rc_model *model, size_t group, double *values)
 {
-    const rc_vehicle *own = model->own;
-    const rc_vehicle_state at = rc_vehicle_view(own, model->dynamic);
-    for (size_t i = 0; i < own->wheels; ++i)
-        switch (group) {
-        case POSITION:
-            values[i] = rc_leading_position(own, *at.start, *at.time) - (double)i * own->axle_base;
-            break;
-        case CONTACT_FORCE:
-            values[i] = rc_hertz_force(compression(own, &at, i), own->wheel.coefficient);
-            break;
-        case DISPLACEMENT:
-            values[i] = at.displacement[i];
-            break;
-        case VELOCITY:
-            values[i] = at.velocity[i];
-            break;
-        case GAP:
-            values[i] = -compression(own, &at, i);
-            break;
-        default: /* IN_CONTACT */
-            values[i] = compression(own, &at, i) > 0.0 ? 1.0 : 0.0;
-        }
-}
-
-static rc_status derive_vehicle(rc_model *model, const double *seed, double *change)
-{
-    const rc_vehicle *own = model->own;
-    const rc_vehicle_state from = rc_vehicle_view(own, own->before);
-    const rc_vehicle_state at = rc_vehicle_view(own, model->dynamic);
-    for (size_t i = 0; i < own->wheels; ++i) {
-        const rc_way over = {.start = *from.start, .time = *from.time, .step = own->last_step,
-                          .rail_start = own->linear ? from.rail[i] : at.rail[i],
-                          .rail_end = at.rail[i],
-                          .rise_start = own->linear ? 0.0 : seed[i], .rise_end = seed[i]};
-        rc_wheel_motion moved = {0.0, 0.0};
-        (void)rc_roll_wheel(own, i, &over,
-                            (rc_wheel_motion){from.displacement[i], from.velocity[i]}, &moved);
-        const double delta = compression(own, &at, i), closer = moved.displacement - seed[i];
-        change[model->slots[CONTACT_FORCE] + i] =
-            rc_hertz_stiffness(delta, own->wheel.coefficient) * closer;
-        change[model->slots[DISPLACEMENT] + i] = moved.displacement;
-        change[model->slots[VELOCITY] + i] = moved.velocity;
-        change[model->slots[GAP] + i] = -closer;
-    }
-    return RC_OK;
+    rc_read_vehicle(model->own, model->dynamic, group, values);
 }
 
 static const rc_class VEHICLE = {
@@ -174,7 +152,7 @@ static const rc_class VEHICLE = {
     .step = step_vehicle,
     .jump = jump_vehicle,
     .read = read_vehicle,
-    .derive = derive_vehicle,
+    .derive = rc_derive_vehicle,
     .release = rc_release_vehicle,
 };
 

@@ -6,17 +6,20 @@
 #include "instance.h"
 #include "motion.h"
 #include "surfaces.h"
+#include "suspension.h"
 #include "wheel.h"
 
 /* Groups of variables, in the order of the declaration. */
 enum {
     SPEED, SPEED_TABLE,
-    WHEEL_MASS, STATIC_WHEEL_LOAD, AXLE_BASE, WHEEL_RADIUS, HERTZ_COEFFICIENT, INITIAL_POSITION,
-    SUBSTEP,
-    SURFACE,
+    WHEEL_MASS, STATIC_WHEEL_LOAD, WHEEL_RADIUS, HERTZ_COEFFICIENT, INITIAL_POSITION, SUBSTEP,
+    OFFSET,
+    SUSPENSION,
+    SURFACE = SUSPENSION + RC_SUSPENSION_PARAMETER_COUNT,
     RAIL_DISPLACEMENT = SURFACE + RC_SURFACE_PARAMETER_COUNT,
     POSITION, CONTACT_FORCE, DISPLACEMENT, VELOCITY, GAP, IN_CONTACT,
-    LINEAR_INPUTS
+    BODIES,
+    LINEAR_INPUTS = BODIES + RC_BODY_OUTPUT_COUNT
 };
 
 typedef struct {
@@ -24,27 +27,36 @@ typedef struct {
     rc_motion motion;
     rc_surfaces surfaces;
     rc_wheel wheel;
-    double axle_base, initial_position, substep;
+    rc_suspension suspension;
+    double *offsets; /* of every wheel behind the first */
+    double initial_position, substep;
     int linear; /* of the last step */
     double *before, *after; /* dynamic values around the last step */
+    double *trial;          /* those of a step with other inputs, for the derivative */
+    double *rail, *level;   /* of every wheel: another input, and the surface under it */
+    double *q, *v;          /* coordinates of the suspension and their rates */
+    double *differences;    /* of a group of outputs */
     double last_step;
 } rc_vehicle;
 
-/* Where the dynamic values are: the way of the state through time, then one for every wheel. */
+/* Where the dynamic values are: the way of the state through time, then one for every wheel; behind
+ * them, for the suspended vehicle, the wheels' displacements in equilibrium, and the coordinates
+ * behind those of the wheels, and their rates. */
 typedef struct {
-    double *start, *time, *displacement, *velocity, *rail;
+    double *start, *time, *displacement, *velocity, *rail, *origin, *above, *above_rate;
 } rc_vehicle_state;
 
 static inline rc_vehicle_state rc_vehicle_view(const rc_vehicle *own, double *values)
 {
-    double *wheels = values + 2;
-    return (rc_vehicle_state){values, values + 1, wheels, wheels + own->wheels,
-                              wheels + 2 * own->wheels};
+    const size_t n = own->wheels;
+    double *wheels = values + 2, *above = wheels + 4 * n;
+    return (rc_vehicle_state){values, values + 1, wheels, wheels + n, wheels + 2 * n,
+                              wheels + 3 * n, above, above + own->suspension.coordinates - n};
 }
 
 static inline size_t rc_vehicle_count(const rc_vehicle *own)
 {
-    return 2 + 3 * own->wheels;
+    return 2 + 2 * (own->wheels + own->suspension.coordinates);
 }
 
 /* Life of the vehicle's own part of a model. */
@@ -65,8 +77,24 @@ typedef struct {
     double rise_start, rise_end; /* what it changes by, for the derivative */
 } rc_way;
 
+/* Level of the surface under a wheel after k of so many half substeps. */
+double rc_level(const rc_vehicle *own, size_t wheel, const rc_way *over, size_t k, size_t halves);
+
 /* Motion of a wheel at the end of the step; also its derivative where `change` is not NULL. */
 rc_wheel_motion rc_roll_wheel(const rc_vehicle *own, size_t wheel, const rc_way *over,
                               rc_wheel_motion motion, rc_wheel_motion *change);
+
+/* Coordinates of the suspended vehicle and their rates, into q and v. */
+void rc_take_coordinates(const rc_vehicle *own, const double *values, double *q, double *v);
+
+/* Moves the suspended vehicle from one block of dynamic values to another, but for its time. */
+void rc_roll_suspended(const rc_vehicle *own, double *from, double *to, const double *rail,
+                       double time, double step);
+
+/* Outputs of a group for a block of dynamic values. */
+void rc_read_vehicle(const rc_vehicle *own, double *dynamic, size_t group, double *values);
+
+/* Derivative of the last step; see rc_class. */
+rc_status rc_derive_vehicle(rc_model *model, const double *seed, double *change);
 
 #endif

@@ -8,12 +8,22 @@ rc_status rc_open_vehicle(rc_model *model)
     rc_vehicle *own = model->own;
     if (rc_read_wheels(model) != RC_OK)
         return RC_ERROR;
-    own->wheels = model->dimensions[RC_WHEELS];
-    model->dynamic_count = rc_vehicle_count(own);
-    own->before = calloc(2 * model->dynamic_count, sizeof(double));
+    const size_t wheels = own->wheels = model->dimensions[RC_WHEELS];
+    if (rc_open_suspension(model, &own->suspension) != RC_OK)
+        return RC_ERROR;
+    const size_t count = model->dynamic_count = rc_vehicle_count(own);
+    const size_t coordinates = own->suspension.coordinates;
+    own->before = calloc(3 * count + 2 * coordinates + 4 * wheels, sizeof(double));
     if (own->before == NULL)
         return rc_fail(model, RC_ERROR, "there is not enough memory for a vehicle");
-    own->after = own->before + model->dynamic_count;
+    own->after = own->before + count;
+    own->trial = own->after + count;
+    own->q = own->trial + count;
+    own->v = own->q + coordinates;
+    own->offsets = own->v + coordinates;
+    own->rail = own->offsets + wheels;
+    own->level = own->rail + wheels;
+    own->differences = own->level + wheels;
     return RC_OK;
 }
 
@@ -27,6 +37,7 @@ void rc_release_vehicle(rc_model *model)
 {
     rc_vehicle *own = model->own;
     release_tables(own);
+    rc_free_suspension(&own->suspension);
     free(own->before);
 }
 
@@ -38,7 +49,6 @@ static rc_status check_parameters(rc_model *model)
     } positive[] = {
         {WHEEL_MASS, "kg", "give half the unsprung mass of a wheelset"},
         {STATIC_WHEEL_LOAD, "N", "give half the axle load as a force"},
-        {AXLE_BASE, "m", "give the distance between successive wheels"},
         {WHEEL_RADIUS, "m", "give half the wheel diameter"},
         {HERTZ_COEFFICIENT, "N/m^1.5", "about 9e10 for steel wheel and rail"},
         {SUBSTEP, "s", "2e-5 resolves the contact"},
@@ -54,15 +64,17 @@ rc_status rc_prepare_vehicle(rc_model *model)
 {
     rc_vehicle *own = model->own;
     release_tables(own);
-    if (check_parameters(model) != RC_OK)
+    if (check_parameters(model) != RC_OK || rc_take_offsets(model, OFFSET, own->offsets) != RC_OK)
         return RC_ERROR;
     own->wheel = (rc_wheel){.mass = *rc_values(model, WHEEL_MASS),
                             .load = *rc_values(model, STATIC_WHEEL_LOAD),
                             .coefficient = *rc_values(model, HERTZ_COEFFICIENT)};
-    own->axle_base = *rc_values(model, AXLE_BASE);
     own->initial_position = *rc_values(model, INITIAL_POSITION);
     own->substep = *rc_values(model, SUBSTEP);
     model->linear = *rc_values(model, LINEAR_INPUTS) != 0.0;
+    if (rc_make_suspension(model, &own->suspension, SUSPENSION, own->wheel.mass, own->wheel.load,
+                           own->offsets, own->substep) != RC_OK)
+        return RC_ERROR;
     if (!rc_make_motion(&own->motion, *rc_values(model, SPEED), rc_text(model, SPEED_TABLE),
                         model->message, RC_MESSAGE_SIZE) ||
         rc_make_surfaces(model, &own->surfaces, SURFACE, *rc_values(model, WHEEL_RADIUS),

@@ -70,7 +70,7 @@ def test_every_part_has_a_picture(passage, part):
 
 def test_the_result_of_something_else_is_refused():
     other = xr.Dataset({"ball.height": ("time", [0.0, 1.0])}, {"time": [0.0, 1.0]})
-    with pytest.raises(InputError, match="which is no passage"):
+    with pytest.raises(InputError, match="is not the result of a passage"):
         evaluate(other)
 
 
@@ -141,10 +141,18 @@ def test_choices_reach_the_evaluation(call):
     assert frequency == pytest.approx(20.0 * np.arange(1, 41))
 
 
+def test_a_short_run_has_the_lines_that_it_resolves(make_passage):
+    passage = make_passage(np.linspace(-0.3, 0.3, 400))  # 54 ms
+    frequency = evaluate(passage, part=PartName.SPECTRUM)["frequency"].to_numpy()
+    assert frequency[0] == pytest.approx(6000.0 / 325.0)  # one segment of all samples
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
         (("--rate", "10"), "evaluation.rate is 10 Hz but must be at least 100 Hz"),
+        (("--resolution", "1e9"), "1e+09 Hz apart but it ends at 2.4e+03 Hz"),
+        (("--resolution", "0.001"), "ask for a coarser resolution"),
         (("--bay-share", "1.5"), "evaluation.bay_share is 1.5 but must be at most 1"),
         (("--plot", "x.doc"), "must end with one of .png, .pdf, .svg"),
     ],
@@ -163,7 +171,7 @@ def test_a_file_that_is_no_result_is_refused(call, tmp_path):
     text.write_text("no data")
     wrong = call(result=text)
     assert wrong.exit_code == 2
-    assert "cannot be read as a result" in one_sentence(wrong)
+    assert "cannot be read as a NetCDF file" in one_sentence(wrong)
 
 
 def test_a_doubtful_run_is_said_to_be_one(call, make_passage, tmp_path):

@@ -68,5 +68,5 @@ def test_the_limit_is_the_filters_or_the_records():
 
 
 def test_a_record_shorter_than_a_sample_is_refused():
-    with pytest.raises(InputError, match="less than one sample at a rate of 6000"):
+    with pytest.raises(InputError, match="shorter than one sample"):
         resample(np.array([0.0, 1e-4]), np.zeros(2), RATE)

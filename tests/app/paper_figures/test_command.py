@@ -107,6 +107,8 @@ def test_measured_points_are_named_where_they_are_drawn(call, tmp_path, monkeypa
     ("options", "message"),
     [
         (("--speeds", "5:100"), "--speeds is '5:100' but must be FROM:TO:STEP"),
+        (("--speeds", "0:10:5"), "vehicle.speed_kmh is 0 km/h"),
+        (("--workers", "0"), "--workers is 0"),
         (("--measured", "missing.csv"), "missing.csv"),
         (("--set", "flat.shape=square"), "flat.shape is 'square'"),
     ],
