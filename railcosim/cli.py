@@ -16,6 +16,7 @@ from .commands.evaluate import evaluate
 from .commands.figures import figures
 from .commands.irregularity import irregularity
 from .commands.load_displacement import load_displacement
+from .commands.pad import pad
 from .commands.receptance import receptance
 from .commands.replay import replay
 from .commands.report import report
@@ -45,6 +46,7 @@ COMMANDS = (
     figures,
     receptance,
     load_displacement,
+    pad,
     irregularity,
     cosim,
     build,

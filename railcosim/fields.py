@@ -18,6 +18,10 @@ LONGEST = 10**300
 """Integers from here on are no numbers: they do not fit into a float."""
 
 
+LONGEST_NUMBER = 8
+"""Digits of a number in a list from which on it counts nothing that there is."""
+
+
 LONGEST_SHOWN = 80
 """Characters of a wrong value that a message repeats."""
 
@@ -93,6 +97,29 @@ class CsvFile:
         return None if not value or is_csv(value) else "the path of a .csv file"
 
 
+@dataclass(frozen=True, slots=True)
+class Numbers:
+    """A text key with whole numbers from 1 on and ranges of them: ``3, 7-9``; may be empty."""
+
+    def complaint(self, value: str) -> str | None:
+        """Say that ``value`` is no such list, or None."""
+        wanted = "whole numbers from 1 on and ranges of them, as 3, 7-9"
+        parts = [part.strip() for part in value.split(",")] if value.strip() else []
+        for part in parts:
+            ends = [end.strip() for end in part.split("-")]
+            if not all(end.isdecimal() and len(end) < LONGEST_NUMBER for end in ends):
+                return wanted
+            if len(ends) > len(("first", "last")) or not 0 < int(ends[0]) <= int(ends[-1]):
+                return wanted
+        return None
+
+    @staticmethod
+    def read(value: str) -> list[range]:
+        """Return the ranges of a list without complaint, a number being one of length 1."""
+        ends = [part.split("-") for part in value.split(",") if part.strip()]
+        return [range(int(end[0]), int(end[-1]) + 1) for end in ends]
+
+
 def is_csv(value: str) -> bool:
     """Tell whether a text names a CSV file."""
     return Path(value).suffix.lower() == ".csv"
@@ -148,7 +175,8 @@ def check_fields(section: DataclassInstance, name: str) -> None:
     Parameters
     ----------
     section : dataclass instance
-        Its fields are annotated ``Annotated[type, Number | Choice | CsvFile]`` or plain ``bool``.
+        Its fields are annotated ``Annotated[type, rule]``, a rule of this module, or plain
+        ``bool``.
     name : str
         Name of the section in the file, for the messages.
 
@@ -186,7 +214,7 @@ def _hints(section: type[DataclassInstance]) -> dict[str, object]:
 
 def _kind_and_rule(
     hint: object,
-) -> tuple[tuple[type, ...], Number | Choice | CsvFile | None]:
+) -> tuple[tuple[type, ...], Number | Choice | CsvFile | Numbers | None]:
     """Split an annotation into the types a value may have and the rule it obeys."""
     rule = None
     if get_origin(hint) is Annotated:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import TYPE_CHECKING, TypeVar, cast
 
 from fmu_src.python.tables import read_table
+from fmu_src.python.track_laws import make_laws
 from vehicle_fmu.irregularity import RailIrregularity
 from vehicle_fmu.parameters import FlatParameters
 from vehicle_fmu.wheel_profile import WheelProfileTable, check_flat
 
 from .errors import InputError
+from .support_values import support_values
+from .track_data import track_parameters
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -94,14 +98,32 @@ def read_irregularity(scenario: Scenario) -> RailIrregularity | None:
     return read_as(RailIrregularity, path, ("position", "drop")) if path else None
 
 
+def check_laws(scenario: Scenario) -> None:
+    """Read the tables of ballast, pads and supports.
+
+    Raises
+    ------
+    InputError
+        For a file that is no such table.
+    """
+    track = scenario.track
+    values = {item.name: getattr(track, item.name) for item in fields(track)}
+    supports = support_values(scenario)
+    try:
+        make_laws(track_parameters(track), values | supports)
+    except ValueError as error:
+        raise InputError(str(error)) from error
+
+
 def check_profiles(scenario: Scenario) -> None:
-    """Read the measured flat and the rail irregularity, and see that the flat fits on the wheel.
+    """Read all tables of the track and the vehicle, and see that the flat fits on the wheel.
 
     Raises
     ------
     InputError
         For a file that is no such table, or a flat that does not fit.
     """
+    check_laws(scenario)
     read_irregularity(scenario)
     flat, table = read_flat(scenario)
     if flat.shape == "none":

@@ -10,6 +10,7 @@ from .master_section import Master
 from .rail_sections import RailSection
 from .sections import DEFAULT_SPEED_KMH, Flat, Run, Surface, Track, Vehicle
 from .suspension_section import Suspension, check_bodies
+from .variation import Variation
 from .wheel_sections import WheelSection
 
 BEHIND_MIDSPAN = 0.025
@@ -24,7 +25,7 @@ class Scenario:
 
     Attributes
     ----------
-    track, vehicle, suspension, flat, surface, run, master
+    track, variation, vehicle, suspension, flat, surface, run, master
         The sections of the scenario file.
     irregularity : tuple
         What the rail is uneven by; added up.
@@ -38,6 +39,7 @@ class Scenario:
     """
 
     track: Track = field(default_factory=Track)
+    variation: Variation = field(default_factory=Variation)
     vehicle: Vehicle = field(default_factory=Vehicle)
     suspension: Suspension = field(default_factory=Suspension)
     flat: Flat = field(default_factory=Flat)
@@ -48,6 +50,7 @@ class Scenario:
     master: Master = field(default_factory=Master)
 
     def __post_init__(self) -> None:
+        self.variation.check_supports(self.track.bays - 1)
         check_bodies(self.vehicle, self.suspension)
         self._check_flat()
         self._check_uneven_surfaces()

@@ -19,12 +19,14 @@ from .sections import Flat, Run, Surface, Track, Vehicle
 from .suspension_section import Suspension
 from .table_lists import TableList, numbered
 from .toml_text import parse_toml, read_text
+from .variation import Variation
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
 SECTIONS: Mapping[str, type[Any]] = {
     "track": Track,
+    "variation": Variation,
     "vehicle": Vehicle,
     "suspension": Suspension,
     "flat": Flat,

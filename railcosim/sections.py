@@ -52,9 +52,22 @@ class Track:
     sleeper_elements : int
         Beam elements in half a sleeper.
     ballast : str
-        ``state_dependent``: Eq. (27) and (30) on top of the linear ballast; ``linear``: without.
+        ``state_dependent``: Eq. (27) and (30) on top of the linear ballast; ``linear``: without;
+        ``hyperbolic``: Eq. (26); or a CSV file with displacement [m], load [N].
     ballast_alpha, ballast_beta, ballast_delta : float
         Coefficients of Eq. (27) [N/m2], [N/m3], [N/m4].
+    ballast_slope : float
+        Rise of the secant stiffness of hyperbolic ballast with its load [1/m].
+    ballast_tangent_damping, ballast_pulls : bool
+        Whether damping follows the tangent stiffness, not the secant; whether a lifted sleeper is
+        pulled back.
+    pad : str
+        ``linear`` or a CSV file: displacement [m], load [N]; or preload [N], static stiffness,
+        stiffness [N/m] and damping [N s/m] of the branch.
+    clip_preload : float
+        Preload of a pad under the unloaded rail [N], where its parameters depend on it.
+    supports : str
+        CSV file with what supports have of their own; see `support_table`.
     mode_pairs : int, optional
         Retained pairs of complex modes; see `retained_pairs`.
     residual_flexibility : bool
@@ -85,10 +98,18 @@ class Track:
     sleeper_mass_per_length: Annotated[float, Number(unit="kg/m", above=0.0)] = 100.0
     sleeper_rotary_inertia_per_length: Annotated[float, Number(unit="kg m", at_least=0.0)] = 0.33
     sleeper_elements: Annotated[int, Number(unit="elements", at_least=2, at_most=100)] = 8
-    ballast: Annotated[str, Choice(("state_dependent", "linear"))] = "state_dependent"
+    ballast: Annotated[str, Choice(("state_dependent", "linear", "hyperbolic"), or_csv=True)] = (
+        "state_dependent"
+    )
     ballast_alpha: Annotated[float, Number(unit="N/m2")] = 0.37e12
     ballast_beta: Annotated[float, Number(unit="N/m3")] = -2.47e15
     ballast_delta: Annotated[float, Number(unit="N/m4")] = 5.75e18
+    ballast_slope: Annotated[float, Number(unit="1/m", above=0.0)] = 2e3
+    ballast_tangent_damping: bool = False
+    ballast_pulls: bool = True
+    pad: Annotated[str, Choice(("linear",), or_csv=True)] = "linear"
+    clip_preload: Annotated[float, Number(unit="N", at_least=0.0)] = 20e3
+    supports: Annotated[str, CsvFile()] = ""
     mode_pairs: Annotated[int | None, Number(unit="pairs", at_least=1)] = None
     residual_flexibility: bool = True
     supports_per_wheel: Annotated[int, Number(unit="supports", at_least=1)] = 6

@@ -9,6 +9,7 @@ from fmu_src.native.models import TRACK_CONSTANTS
 
 from .motion import initial_speed
 from .sections import Track
+from .support_values import support_values
 from .surface_files import files_of
 from .suspension_section import Suspension
 
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
 Value: TypeAlias = float | int | bool | str
 """What a parameter of an FMU may be."""
 
-BUILT_IN = ("bays", "elements_per_bay")
-"""Keys of the track that are fixed when its FMU is built."""
+NO_PARAMETERS = ("bays", "elements_per_bay", "supports")
+"""Keys of the track that its FMU is built of, or that are parameters of its supports."""
 
 
 def track_constants(scenario: Scenario) -> dict[str, Value]:
@@ -37,7 +38,7 @@ def _of_track(scenario: Scenario) -> dict[str, Value]:
     own = {
         item.name: getattr(scenario.track, item.name)
         for item in fields(Track)
-        if item.name not in BUILT_IN
+        if item.name not in NO_PARAMETERS
     }
     return own | {"mode_pairs": scenario.track.retained_pairs}
 
@@ -60,7 +61,7 @@ def track_values(
         f"gauge[{k}].position": position
         for k, position in enumerate(scenario.gauge_positions, start=1)
     }
-    values = {**own, **gauges, "initial_speed": initial_speed(law)}
+    values = {**own, **gauges, **support_values(scenario), "initial_speed": initial_speed(law)}
     if contact == "vehicle":
         return values
     values |= _contact_values(scenario, surfaces or files_of(scenario))

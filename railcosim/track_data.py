@@ -8,8 +8,36 @@ from typing import TYPE_CHECKING
 from track_fmu.ballast import PolynomialBallast
 from track_fmu.parameters import TrackParameters
 
+from .errors import InputError
+from .sections import Track
+from .variation import Variation
+
 if TYPE_CHECKING:
-    from .sections import Track
+    from .scenario import Scenario
+
+PAPER = ("ballast_tangent_damping", "ballast_pulls", "pad", "supports")
+"""Keys of the track without which its laws are those of the paper."""
+
+
+def require_paper_laws(scenario: Scenario, what: str) -> None:
+    """Refuse laws of pads and ballast, and supports that differ, where they are not known.
+
+    Raises
+    ------
+    InputError
+        That names the key to leave out.
+    """
+    usual, track = Track(), scenario.track
+    keys = [f"track.{key}" for key in PAPER if getattr(track, key) != getattr(usual, key)]
+    if track.ballast not in ("state_dependent", "linear"):
+        keys.insert(0, "track.ballast")
+    if scenario.variation != Variation():
+        keys.append("[variation]")
+    if keys:
+        raise InputError(
+            f"{what} knows the ballast and the pads of the paper only, the same at every support: "
+            f"leave {keys[0]} out"
+        )
 
 
 def track_parameters(track: Track) -> TrackParameters:

@@ -68,6 +68,12 @@ def test_contact_on_track(tmp_path, baseline):
     baseline.check(coarse(rows, 4), TOLERANCES, name="contact_on_track")
 
 
+def test_varying_track():
+    """Python FMUs give the same to 13 digits; no other program has this track."""
+    passage = run_passage(read_scenario(EXAMPLES / "varying_track.toml"), fmus="native")
+    assert summarise(passage).peak_contact_force == pytest.approx(299.09e3, rel=1e-3)
+
+
 @pytest.mark.parametrize(
     ("name", "peak", "smallest"),
     [("uneven_rail", 173.35e3, 64.23e3), ("worn_wheels", 272.26e3, 27.03e3)],

@@ -9,10 +9,11 @@ import numpy as np
 
 from .assembly import IntArray
 from .beam_element import FloatArray
+from .component_law import MemorylessLaw
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PolynomialBallast:
+class PolynomialBallast(MemorylessLaw):
     """Fourth-degree force increment with proportional (secant) damping.
 
     ``force = (alpha x^2 + beta x^3 + delta x^4) + tau x' (alpha x + beta x^2 + delta x^3)`` for a
@@ -41,21 +42,26 @@ class PolynomialBallast:
         if self.tau < 0.0:
             raise ValueError(f"ballast: tau = {self.tau!r} s must be at least 0")
 
+    @property
+    def stiff(self) -> bool:
+        """No; see `ComponentLaw.stiff`."""
+        return False
+
     def force(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
         """Force increment [N], Eq. (27) + (30); see `ComponentLaw.force`."""
         del support  # every support is alike
         x = np.maximum(deformation, 0.0)
         return self._secant(x) * (x + self.tau * rate)
 
-    def stiffness(self, deformation: FloatArray, support: IntArray) -> FloatArray:
-        """Tangent stiffness of Eq. (27) [N/m]; see `ComponentLaw.stiffness`."""
-        del support
+    def stiffness(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
+        """Tangent stiffness of Eq. (27), at rest [N/m]; see `ComponentLaw.stiffness`."""
+        del rate, support
         x = np.maximum(deformation, 0.0)
         return x * (2.0 * self.alpha + x * (3.0 * self.beta + x * 4.0 * self.delta))
 
-    def damping(self, deformation: FloatArray, support: IntArray) -> FloatArray:
+    def damping(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
         """Damping of Eq. (30) [N s/m]; see `ComponentLaw.damping`."""
-        del support
+        del rate, support
         return self.tau * self._secant(np.maximum(deformation, 0.0))
 
     def _secant(self, x: FloatArray) -> FloatArray:

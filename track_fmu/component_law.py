@@ -6,6 +6,7 @@ from typing import Protocol
 
 from .assembly import IntArray
 from .beam_element import FloatArray
+from .pad_memory import PadMemory
 
 
 class ComponentLaw(Protocol):
@@ -13,7 +14,18 @@ class ComponentLaw(Protocol):
 
     Positive in compression. The increment resists the deformation: it enters the track as
     ``-force`` on the deformation, Eq. (23) and (25).
+
+    Attributes
+    ----------
+    stiff : bool
+        Whether tangents at the beginning of a step may be too far from those at its end, as where
+        gaps close: they are then worked out again in every sweep.
     """
+
+    @property
+    def stiff(self) -> bool:
+        """See the attribute."""
+        ...
 
     def force(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
         """Force increment [N] at the given deformation [m] and rate [m/s].
@@ -27,10 +39,48 @@ class ComponentLaw(Protocol):
         """
         ...
 
-    def stiffness(self, deformation: FloatArray, support: IntArray) -> FloatArray:
-        """Derivative of the force increment by the deformation at rest [N/m], shape (c,)."""
+    def stiffness(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
+        """Derivative of the force increment by the deformation [N/m], shape (c,).
+
+        A law that is not stiff may give it at rest, whatever the rate.
+        """
         ...
 
-    def damping(self, deformation: FloatArray, support: IntArray) -> FloatArray:
-        """Derivative of the force increment by the rate at rest [N s/m], shape (c,)."""
+    def damping(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
+        """Derivative of the force increment by the rate [N s/m], shape (c,)."""
         ...
+
+    def during(self, step_size: float, memory: PadMemory) -> ComponentLaw:
+        """Return the law over a step [s] that begins with what components remember.
+
+        A law without memory is its own; one with memory is by itself that of slow motion.
+        """
+        ...
+
+    def remembered(
+        self, deformation: FloatArray, rate: FloatArray, support: IntArray
+    ) -> tuple[FloatArray, ...]:
+        """What the components remember of the motion at the end of the step, (c,) each.
+
+        See `PadMemory.keep`; empty for a law without memory.
+        """
+        ...
+
+
+class MemorylessLaw:
+    """What all laws without memory have in common."""
+
+    __slots__ = ()
+
+    def during(self, step_size: float, memory: PadMemory) -> ComponentLaw:
+        """Return the same law; see `ComponentLaw.during`."""
+        del step_size, memory
+        law: ComponentLaw = self  # type: ignore[assignment]  # of subclasses, which are laws
+        return law
+
+    def remembered(
+        self, deformation: FloatArray, rate: FloatArray, support: IntArray
+    ) -> tuple[FloatArray, ...]:
+        """Nothing; see `ComponentLaw.remembered`."""
+        del deformation, rate, support
+        return ()

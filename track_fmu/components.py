@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from .assembly import IntArray
 from .beam_element import FloatArray
 from .component_law import ComponentLaw
 from .eigensolver import ComplexArray
+from .pad_memory import PadMemory
 from .reduction import ReducedTrack
 
 
@@ -20,6 +22,11 @@ class _Group:
     law: ComponentLaw
     part: slice
     support: IntArray
+
+    def during(self, step_size: float, memory: PadMemory) -> _Group:
+        """Return the group over a step; itself if its law has no memory."""
+        law = self.law.during(step_size, memory)
+        return self if law is self.law else replace(self, law=law)
 
 
 class ActiveComponents:
@@ -35,6 +42,8 @@ class ActiveComponents:
         Modal deformations.
     flexibility : (c, c) float array
         Residual flexibility among them [m/N].
+    remembers : bool
+        Whether a law of theirs, bound to a step, has a memory.
     """
 
     def __init__(self, track: ReducedTrack, groups: list[_Group], number: IntArray) -> None:
@@ -43,11 +52,17 @@ class ActiveComponents:
         self.shape: ComplexArray = track.shape[self.rows]
         self.flexibility: FloatArray = track.flexibility[np.ix_(self.rows, self.rows)]
         self._groups = groups
+        self.remembers = False
 
     @property
     def count(self) -> int:
         """Number of active components c."""
         return len(self.number)
+
+    @property
+    def stiff(self) -> bool:
+        """Whether a law among theirs is; see `ComponentLaw.stiff`."""
+        return any(group.law.stiff for group in self._groups)
 
     def force(self, deformation: FloatArray, rate: FloatArray) -> FloatArray:
         """Force increments [N], shape (c,)."""
@@ -57,19 +72,43 @@ class ActiveComponents:
             total[part] = group.law.force(deformation[part], rate[part], group.support)
         return total
 
-    def stiffness(self, deformation: FloatArray) -> FloatArray:
-        """Tangent stiffness of the increments at rest [N/m], shape (c,)."""
+    def stiffness(self, deformation: FloatArray, rate: FloatArray) -> FloatArray:
+        """Tangent stiffness of the increments [N/m], shape (c,)."""
         total = np.empty(self.count)
         for group in self._groups:
-            total[group.part] = group.law.stiffness(deformation[group.part], group.support)
+            part = group.part
+            total[part] = group.law.stiffness(deformation[part], rate[part], group.support)
         return total
 
-    def damping(self, deformation: FloatArray) -> FloatArray:
-        """Tangent damping of the increments at rest [N s/m], shape (c,)."""
+    def damping(self, deformation: FloatArray, rate: FloatArray) -> FloatArray:
+        """Tangent damping of the increments [N s/m], shape (c,)."""
         total = np.empty(self.count)
         for group in self._groups:
-            total[group.part] = group.law.damping(deformation[group.part], group.support)
+            part = group.part
+            total[part] = group.law.damping(deformation[part], rate[part], group.support)
         return total
+
+    def during(self, step_size: float, memory: PadMemory) -> ActiveComponents:
+        """Return the same components over a step [s] that begins with a memory."""
+        groups = [group.during(step_size, memory) for group in self._groups]
+        if all(new is old for new, old in zip(groups, self._groups, strict=True)):
+            return self
+        bound = copy(self)
+        bound.bind(groups)
+        return bound
+
+    def bind(self, groups: list[_Group]) -> None:
+        """Take over laws that hold for one step."""
+        self._groups, self.remembers = groups, True
+
+    def remember(self, memory: PadMemory, deformation: FloatArray, rate: FloatArray) -> None:
+        """Keep what the components remember of the motion at the end of the step."""
+        memory.forget()
+        for group in self._groups:
+            part = group.part
+            values = group.law.remembered(deformation[part], rate[part], group.support)
+            if values:
+                memory.keep(group.support, *values)
 
 
 class Components:

@@ -6,7 +6,8 @@ With the wheels' levels given, a compression is what remains of a level over the
 
 where the rail displacement ``u`` is affine in the contact forces and in the increments ``g`` of the
 state-dependent components. Newton's iteration on the compressions and the increments at once takes
-the exact tangents of the contacts and those of the increments at the start of the step.
+the exact tangents of the contacts and those of the increments at the start of the step, or where
+they are if their laws are stiff.
 """
 
 from __future__ import annotations
@@ -76,11 +77,11 @@ def solve_contact(
     RuntimeError
         If the iteration does not converge.
     """
-    answer = operator.answer
     trial = ContactSolution(compression, law.force(compression), operator.first_increment)
     with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused below
         miss = _miss(operator, trial, level)
         for _ in range(MAX_ITERATIONS):
+            answer = operator.answer_at(trial.force, trial.increment)
             change, increment_change = _newton_change(answer, law, trial, miss)
             share = 1.0
             for _ in range(MAX_HALVINGS):

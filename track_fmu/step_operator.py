@@ -25,6 +25,7 @@ from .track_state import TrackState
 RELATIVE_TOLERANCE = 1e-13
 ABSOLUTE_TOLERANCE = 1e-9  # N
 MAX_SWEEPS = 30
+MAX_HALVINGS = 6
 
 
 class StepOperator:
@@ -70,7 +71,7 @@ class StepOperator:
     ) -> None:
         self.step_size, self.linear = step_size, linear
         self.positions = positions.copy()
-        self._active = active
+        self._active = active = active.during(step_size, state.pads)
         self._start = state.flat.copy()
         self.first_increment: FloatArray = state.increment[active.number]
         self._contact: ComplexArray = np.array([w.shape @ track.shape[w.rows] for w in wheels])
@@ -80,7 +81,8 @@ class StepOperator:
         self._free: ComplexArray = exponential.decay * state.modal + exponential.start * load
         self._set_up_displacements(track, wheels)
         self._set_up_rates(track)
-        self._correction = self._set_up_correction(state)
+        self._first_force: FloatArray = state.force.copy()
+        self._set_up_correction(self._first_force, self.first_increment)
 
     def serves(
         self, state: TrackState, step_size: float, positions: FloatArray, linear: bool
@@ -106,16 +108,37 @@ class StepOperator:
     def demanded(self, forces: FloatArray, increment: FloatArray) -> FloatArray:
         """Force increments that the motion under given forces and increments asks for, (c,) [N]."""
         return self._active.force(
-            self._free_active + self._active_contact @ forces - self._active_active @ increment,
+            self._deformation(forces, increment),
             self._free_rate + self._rate_contact @ forces - self._rate_active @ increment,
         )
 
-    @cached_property
-    def answer(self) -> Answer:
-        """How increments and rail displacements answer to forces, with the tangents at the start.
+    def _deformation(self, forces: FloatArray, increment: FloatArray) -> FloatArray:
+        """Deformations of the components at the end of the step [m], shape (c,)."""
+        return np.asarray(
+            self._free_active + self._active_contact @ forces - self._active_active @ increment
+        )
 
-        As those of the increments' own iteration, they depend on the state alone.
+    @property
+    def stiff(self) -> bool:
+        """Whether tangents have to be taken where they are used; see `ComponentLaw.stiff`."""
+        return self._active.stiff
+
+    def answer_at(self, forces: FloatArray, increment: FloatArray) -> Answer:
+        """How increments and rail displacements answer to forces near those given.
+
+        With the tangents at the start of the step where they serve, as in the increments' own
+        iteration: those depend on the state alone.
         """
+        if not self.stiff:
+            return self._answer
+        self._set_up_correction(forces, increment)
+        return self._make_answer()
+
+    @cached_property
+    def _answer(self) -> Answer:
+        return self._make_answer()
+
+    def _make_answer(self) -> Answer:
         increments = self._correction @ (
             self._stiffness[:, None] * self._active_contact
             + self._damping[:, None] * self._rate_contact
@@ -135,6 +158,12 @@ class StepOperator:
         state.modal[:] = self._free + self._contact_end * contact_load - self._end * increment_load
         state.load[:] = contact_load - increment_load
         state.displacement[:] = self.displacement(forces, increment)
+        if self._active.remembers:
+            self._active.remember(
+                state.pads,
+                self._deformation(forces, increment),
+                self._free_rate + self._rate_contact @ forces - self._rate_active @ increment,
+            )
         new_increment = np.zeros_like(state.increment)
         new_increment[self._active.number] = increment
         state.increment_rate[:] = (new_increment - state.increment) / self.step_size
@@ -192,17 +221,19 @@ class StepOperator:
         )
         self._rate_active: FloatArray = np.real((driven * self._end + rates) @ self._active.shape.T)
 
-    def _set_up_correction(self, state: TrackState) -> FloatArray:
-        """Inverse Jacobian of the increments' equation, at the forces of the step's start.
+    def _set_up_correction(self, forces: FloatArray, increment: FloatArray) -> None:
+        """Inverse Jacobian of the increments' equation, at given forces.
 
-        It depends on nothing but the state, so that a repeated step is the same bit for bit.
+        At those of the step's start it depends on nothing but the state, so that a repeated step
+        is the same bit for bit; where that does not serve, it is worked out before every use.
         """
-        deformation = self._free_active + self._active_contact @ state.force
-        deformation -= self._active_active @ state.increment[self._active.number]
-        self._stiffness = stiffness = self._active.stiffness(deformation)
-        self._damping = damping = self._active.damping(deformation)
+        deformation = self._free_active + self._active_contact @ forces
+        deformation -= self._active_active @ increment
+        rate = self._free_rate + self._rate_contact @ forces - self._rate_active @ increment
+        self._stiffness = stiffness = self._active.stiffness(deformation, rate)
+        self._damping = damping = self._active.damping(deformation, rate)
         jacobian = stiffness[:, None] * self._active_active + damping[:, None] * self._rate_active
-        return np.asarray(np.linalg.inv(np.eye(self._active.count) + jacobian))
+        self._correction = np.asarray(np.linalg.inv(np.eye(self._active.count) + jacobian))
 
     def _solve_increments(self, guess: FloatArray, forces: FloatArray) -> FloatArray:
         """Force increments at the end of the step, consistent with the motion they cause.
@@ -211,6 +242,8 @@ class StepOperator:
         """
         if self._active.count == 0:
             return guess
+        if self.stiff:
+            return self._solve_stiffly(guess, forces)
         deformation = self._free_active + self._active_contact @ forces
         rate = self._free_rate + self._rate_contact @ forces
         increment = guess
@@ -228,7 +261,32 @@ class StepOperator:
                 limit = RELATIVE_TOLERANCE * scale + ABSOLUTE_TOLERANCE
                 if float(np.max(np.abs(change))) <= limit:
                     return increment
-        raise RuntimeError(
+        raise RuntimeError(self._refusal)
+
+    def _solve_stiffly(self, increment: FloatArray, forces: FloatArray) -> FloatArray:
+        """Find the same with the Jacobian of every sweep, and shorter changes where they help."""
+        with np.errstate(over="ignore", invalid="ignore"):  # divergence is refused below
+            miss = self.demanded(forces, increment) - increment
+            for _ in range(MAX_SWEEPS):
+                self._set_up_correction(forces, increment)
+                change = self._correction @ miss
+                size = float(np.max(np.abs(change)))
+                scale = float(np.max(np.abs(increment)))
+                if not np.isfinite(size + scale):
+                    break
+                if size <= RELATIVE_TOLERANCE * scale + ABSOLUTE_TOLERANCE:
+                    return increment + change
+                for halvings in range(MAX_HALVINGS):
+                    new = increment + 0.5**halvings * change
+                    new_miss = self.demanded(forces, new) - new
+                    if np.max(np.abs(new_miss)) <= np.max(np.abs(miss)):
+                        break
+                increment, miss = new, new_miss
+        raise RuntimeError(self._refusal)
+
+    @property
+    def _refusal(self) -> str:
+        return (
             f"track: the state-dependent forces did not converge in {MAX_SWEEPS} sweeps over a "
             f"step of {self.step_size:.3g} s; use a shorter step"
         )

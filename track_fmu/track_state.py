@@ -6,6 +6,7 @@ import numpy as np
 
 from .beam_element import FloatArray
 from .eigensolver import ComplexArray
+from .pad_memory import PadMemory
 
 
 class TrackState:
@@ -23,6 +24,8 @@ class TrackState:
         Rail displacement under the wheels [m].
     increment, increment_rate : (components,) float array
         State-dependent forces of ballast and pads [N] and their slope in the last step [N/s].
+    pads : PadMemory
+        What viscoelastic pads remember, (supports,) each.
     modal, load : (S,) complex array
         Modal states ``q`` and modal loads ``Q``.
     offset : (1,) float array
@@ -39,16 +42,19 @@ class TrackState:
         "load",
         "modal",
         "offset",
+        "pads",
         "position",
         "speed",
     )
 
     def __init__(self, *, wheels: int, components: int, modes: int) -> None:
-        self.flat: FloatArray = np.zeros(5 * wheels + 2 * components + 4 * modes + 1)
-        lengths = [wheels] * 5 + [components] * 2 + [2 * modes] * 2 + [1]
+        supports = components // 2
+        self.flat: FloatArray = np.zeros(5 * wheels + 2 * components + 3 * supports + 4 * modes + 1)
+        lengths = [wheels] * 5 + [components] * 2 + [supports] * 3 + [2 * modes] * 2 + [1]
         parts = np.split(self.flat, np.cumsum(lengths)[:-1])  # views, not copies
         self.position, self.speed, self.force, self.force_rate, self.displacement = parts[:5]
         self.increment, self.increment_rate = parts[5:7]
-        self.modal: ComplexArray = parts[7].view(np.complex128)
-        self.load: ComplexArray = parts[8].view(np.complex128)
-        self.offset = parts[9]
+        self.pads = PadMemory(*parts[7:10])
+        self.modal: ComplexArray = parts[10].view(np.complex128)
+        self.load: ComplexArray = parts[11].view(np.complex128)
+        self.offset = parts[12]

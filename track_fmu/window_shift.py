@@ -78,6 +78,8 @@ class WindowShift:
         for values in (state.increment, state.increment_rate):
             for kind in values.reshape(-1, supports):
                 kind[:] = _shifted(kind, bays)
+        for memory in state.pads:
+            memory[:] = _shifted(memory, bays)
         self._press(state, wheels)
 
     def _press(self, state: TrackState, wheels: Sequence[RailPoint]) -> None:

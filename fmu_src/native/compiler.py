@@ -36,16 +36,22 @@ FMI = (
 COMMON = ("binary.c", "checksum.c", "create.c", "model.c", "state.c", "variables.c")
 ON_TRACK = (
     "basis.c",
+    "characteristic.c",
+    "curve.c",
     "dense.c",
     "exponential.c",
     "increments.c",
+    "laws.c",
+    "laws_setup.c",
     "observation.c",
     "operator.c",
     "operator_step.c",
+    "preloaded_pad.c",
     "rail_point.c",
     "rows.c",
     "static_start.c",
     "supports.c",
+    "table_file.c",
     "track_memory.c",
     "track_setup.c",
     "window.c",
@@ -66,8 +72,7 @@ VEHICLE = (
     "wheel.c",
 )
 TRACK_CONTACT = (
-    *ON_TRACK,
-    *SURFACES,
+    *dict.fromkeys((*ON_TRACK, *SURFACES)),
     "contact_memory.c",
     "contact_solution.c",
     "contact_step.c",

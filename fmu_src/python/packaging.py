@@ -35,7 +35,13 @@ SHARED = (
     "tables.py",
     "variables.py",
 )
-TRACK_MODULES = ("track_slave.py", "track_variables.py", "track_making.py", "basis_cache.py")
+TRACK_MODULES = (
+    "track_slave.py",
+    "track_variables.py",
+    "track_making.py",
+    "track_laws.py",
+    "basis_cache.py",
+)
 VEHICLE_MODULES = (
     "vehicle_slave.py",
     "vehicle_variables.py",

@@ -8,12 +8,12 @@ from functools import lru_cache
 from typing import Any
 
 from track_fmu.assembly import assemble
-from track_fmu.ballast import PolynomialBallast
 from track_fmu.parameters import TrackParameters
 from track_fmu.reduction import ReducedTrack, reduce_track
 from track_fmu.track_model import TrackModel, TrackOptions
 
 from .basis_cache import cached_basis
+from .track_laws import make_laws
 
 
 def make_track(
@@ -40,7 +40,8 @@ def make_track(
         gauges=tuple(parameters[f"gauge[{k}].position"] for k in range(1, gauges + 1)),
     )
     reduced = _reduced_track(track, parameters["mode_pairs"], parameters["residual_flexibility"])
-    return TrackModel(reduced, options, ballast=_ballast_law(track, parameters))
+    ballast, pad = make_laws(track, parameters)
+    return TrackModel(reduced, options, ballast=ballast, pad=pad)
 
 
 @lru_cache(maxsize=4)
@@ -51,17 +52,3 @@ def _reduced_track(
     matrices = assemble(parameters)
     basis = cached_basis(parameters, matrices, mode_pairs=mode_pairs)
     return reduce_track(parameters, matrices, basis, residual_flexibility=residual_flexibility)
-
-
-def _ballast_law(track: TrackParameters, parameters: Mapping[str, Any]) -> PolynomialBallast | None:
-    kind = parameters["ballast"]
-    if kind == "linear":
-        return None
-    if kind == "state_dependent":
-        return PolynomialBallast(
-            alpha=parameters["ballast_alpha"],
-            beta=parameters["ballast_beta"],
-            delta=parameters["ballast_delta"],
-            tau=track.ballast_damping / track.ballast_stiffness,
-        )
-    raise ValueError(f"track: ballast is {kind!r}; it must be 'state_dependent' or 'linear'")

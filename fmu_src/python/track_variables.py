@@ -6,6 +6,7 @@ from track_fmu.ballast import PolynomialBallast
 from track_fmu.parameters import TrackParameters
 from track_fmu.track_model import TrackOptions
 
+from .track_laws import SUPPORT_PARAMETERS
 from .variables import Variable
 
 # name, unit, description of the parameters of Table 1
@@ -83,7 +84,8 @@ def track_parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
             causality="parameter",
             start="state_dependent",
             description="Ballast law: state_dependent (Nielsen & Oscarsson 2004, Eq. 27 and 30, "
-            "on top of the linear ballast) or linear",
+            "on top of the linear ballast), linear, hyperbolic (Eq. 26) or a CSV file with the "
+            "columns displacement [m] and load [N]",
         )
     )
     variables += [
@@ -131,6 +133,7 @@ def track_parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
             "then numbered from window_position on, which moves with the wheels by whole bays",
         ),
     ]
+    variables += _law_parameters(structure)
     middle, offsets = _middle(structure), [0.0, -0.5, 0.5]
     for k in range(gauges):
         offset = offsets[k] if k < len(offsets) else k - 2.0
@@ -144,6 +147,47 @@ def track_parameters(structure: TrackParameters, gauges: int) -> list[Variable]:
                 description=f"Track position of bending moment gauge {k + 1}",
             )
         )
+    return variables
+
+
+def _law_parameters(structure: TrackParameters) -> list[Variable]:
+    """Laws of pads and ballast beside the paper's, and how they differ from support to support."""
+    of_all = (
+        ("ballast_slope", 2e3, "1/m", 0.0,
+         "Rise of the secant stiffness of hyperbolic ballast with its load (Eq. 26)"),
+        ("ballast_tangent_damping", False, "", None,
+         "Whether the ballast's damping follows its tangent stiffness; false: its secant (Eq. 30)"),
+        ("ballast_pulls", True, "", None,
+         "Whether the ballast pulls a lifted sleeper back; false: the sleeper lifts off"),
+        ("pad", "linear", "", None,
+         ("Rail pad law: linear, or a CSV file with the columns displacement [m] and load [N], or "
+          "preload [N], static stiffness, stiffness [N/m] and damping [N.s/m] of the branch")),
+        ("clip_preload", 20e3, "N", 0.0,
+         "Preload of a rail pad under the unloaded rail, where its parameters depend on it"),
+    )  # fmt: skip
+    variables = [
+        Variable(
+            name=name,
+            causality="parameter",
+            start=start,
+            unit=unit,
+            minimum=minimum,
+            description=description,
+        )
+        for name, start, unit, minimum, description in of_all
+    ]
+    variables += [
+        Variable(
+            name=f"support[{i + 1}].{name}",
+            causality="parameter",
+            start=start,
+            unit=unit,
+            minimum=0.0 if unit else None,
+            description=description.format(i + 1),
+        )
+        for name, start, unit, description in SUPPORT_PARAMETERS
+        for i in range(structure.supports)
+    ]
     return variables
 
 

@@ -52,6 +52,7 @@ class Variable:
 # SI base exponents of the units in use, for the UnitDefinitions of a model description
 UNITS: dict[str, dict[str, int]] = {
     "1": {},
+    "1/m": {"m": -1},
     "m": {"m": 1},
     "s": {"s": 1},
     "kg": {"kg": 1},

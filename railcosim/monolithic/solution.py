@@ -19,6 +19,7 @@ from ..errors import InputError
 from ..input_tables import check_profiles
 from ..run_record import ATTEMPT_COLUMNS, programs
 from ..summary import CAUSES
+from ..track_data import require_paper_laws
 from ..watched_control import Progress
 from .course import course_of
 from .full_track import FullTrack
@@ -101,6 +102,7 @@ def solve(
     ):
         if value not in get_args(kind):
             raise InputError(f"{name} is {value!r} but must be one of {', '.join(get_args(kind))}")
+    require_paper_laws(scenario, "the monolithic solution")
     if scenario.track.endless:
         raise InputError(
             "track.endless is true but this solution holds the whole track: leave it out, with as "

@@ -77,7 +77,8 @@ def ballast_tangent(
     supports = np.arange(track.parameters.supports)
     sunk = model.observe().ballast_deformation
     near = np.isin(supports, nearest_supports(track.parameters, place, supports_per_wheel))
+    rest = np.zeros_like(sunk)
     return BallastTangent(
-        stiffness=np.where(near, law.stiffness(sunk, supports), 0.0),
-        damping=np.where(near, law.damping(sunk, supports), 0.0),
+        stiffness=np.where(near, law.stiffness(sunk, rest, supports), 0.0),
+        damping=np.where(near, law.damping(sunk, rest, supports), 0.0),
     )

@@ -16,7 +16,7 @@ from track_fmu.reduction import reduce_track
 
 from ..errors import InputError, RunError
 from ..load_displacement import HEAVIEST
-from ..track_data import ballast_law, track_parameters
+from ..track_data import ballast_law, require_paper_laws, track_parameters
 from .dynamic_stiffness import DynamicStiffness
 from .modal import modal_receptance
 from .peaks import Peak, find_peaks
@@ -69,6 +69,7 @@ class ReceptanceStudy:
     preload: float = 0.0
 
     def __post_init__(self) -> None:
+        require_paper_laws(self.scenario, "a receptance")
         for place in (self.load, self.response):
             track_point(self._parameters, place)
         if not 0.0 <= self.preload <= HEAVIEST:

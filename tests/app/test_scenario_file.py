@@ -62,7 +62,10 @@ def test_files_are_sought_beside_the_scenario_or_in_the_working_directory(
         ("vehicle.depth=3", ["did you mean flat.depth"]),
         (
             "wagon.speed_kmh=3",
-            ["wagon", "[track], [vehicle], [suspension], [flat], [run], [master]"],
+            [
+                "wagon",
+                "[track], [variation], [vehicle], [suspension], [flat], [run], [master]",
+            ],
         ),
         ("speed_kmh=3", ["section.key=value", "--set vehicle.speed_kmh="]),
         ("flat.depth", ["section.key=value", "flat.depth"]),

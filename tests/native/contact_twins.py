@@ -85,11 +85,12 @@ class ContactPair:
         """Numpy's state as the native one has it, and the native one; names and values."""
         wheels = self.wheels
         lengths = {"position": wheels, "speed": wheels, "force": wheels, "force_rate": wheels,
-                   "displacement": wheels, "increment": self.supports,
-                   "increment_rate": self.supports, "modal": 2 * filled(self.modes),
+                   "displacement": wheels, "increment": 2 * self.supports,
+                   "increment_rate": 2 * self.supports, "pads": 3 * self.supports,
+                   "modal": 2 * filled(self.modes),
                    "load": 2 * filled(self.modes), "offset": 1, "compression": wheels,
-                   "ahead": wheels, "origin": wheels, "history": 6 * wheels,
-                   "ages": 2, "passed": 1}  # fmt: skip
+                   "ahead": wheels,
+                   "origin": wheels, "history": 6 * wheels, "ages": 2, "passed": 1}  # fmt: skip
         own = self._to_native(self.numpy.state)
         places = np.cumsum(list(lengths.values()))[:-1]
         expected, found = np.split(own, places), np.split(self.native.state[-len(own) :], places)

@@ -5,9 +5,10 @@ from functools import lru_cache
 import numpy as np
 
 from fmu_src.python.basis_cache import cached_basis
+from fmu_src.python.track_laws import make_laws
+from fmu_src.python.track_variables import track_parameters
 from fmu_src.python.vehicle_slave import VehicleSlave
 from track_fmu.assembly import assemble
-from track_fmu.ballast import PolynomialBallast
 from track_fmu.reduction import reduce_track
 from track_fmu.track_model import TrackModel, TrackOptions
 
@@ -72,12 +73,12 @@ def filled(modes):
 
 
 def native_track_state(flat, *, wheels, supports, modes):
-    """Numpy's state as C has it: no increments of pads; modes split and filled up."""
-    lengths = [5 * wheels, 2 * supports, 2 * supports, 2 * modes, 2 * modes]
-    of_wheels, increment, rate, modal, load, offset = np.split(flat, np.cumsum(lengths))
+    """Numpy's state as C has it: modes split and filled up."""
+    lengths = [5 * wheels + 7 * supports, 2 * modes, 2 * modes]
+    real, modal, load, offset = np.split(flat, np.cumsum(lengths))
     rows = np.zeros((4, filled(modes)))
     rows[:, :modes] = modal[::2], modal[1::2], load[::2], load[1::2]
-    return np.concatenate([of_wheels, increment[:supports], rate[:supports], rows.ravel(), offset])
+    return np.concatenate([real, rows.ravel(), offset])
 
 
 class TrackPair:
@@ -94,6 +95,7 @@ class TrackPair:
         ballast="state_dependent",
         supports=6,
         gauge=None,
+        values=(),
         endless=False,
     ):
         self.native = native(
@@ -107,10 +109,13 @@ class TrackPair:
         )
         if gauge is not None:
             self.native.set_one("gauge[1].position", gauge)
+        for name, value in dict(values).items():
+            self.native.set_one(name, value)
         self.linear = linear
         self.parameters = parameters
         self.wheels = len(self.native.group("wheel[#].position"))
-        law = PolynomialBallast(tau=parameters.ballast_damping / parameters.ballast_stiffness)
+        start = {v.name: v.start for v in track_parameters(parameters, gauges=0)}
+        laws = make_laws(parameters, start | {"ballast": ballast} | dict(values))
         self.reduced = reduced_track(
             parameters,
             int(self.native.get(["mode_pairs"], INTEGER)[0]),
@@ -125,7 +130,8 @@ class TrackPair:
                 gauges=tuple(self.native.group("gauge[#].position")),
                 endless=endless,
             ),
-            ballast=law if ballast == "state_dependent" else None,
+            ballast=laws[0],
+            pad=laws[1],
         )
 
     def start(self, positions, forces):
@@ -160,9 +166,12 @@ class TrackPair:
 
     def states(self):
         """Numpy's state as the native one has it, and the native one; names and values."""
-        lengths = [self.wheels] * 5 + [self.parameters.supports] * 2 + [2 * self._half] * 2 + [1]
+        supports = self.parameters.supports
+        lengths = [self.wheels] * 5 + [2 * supports] * 2 + [supports] * 3 + [2 * self._half] * 2
+        lengths.append(1)
         names = ("position", "speed", "force", "force_rate", "displacement", "increment",
-                 "increment_rate", "modal", "load", "offset")  # fmt: skip
+                 "increment_rate", "branch_force", "compression", "known", "modal",
+                 "load", "offset")  # fmt: skip
         places = np.cumsum(lengths)[:-1]
         own = self._to_native(self.numpy.state)
         expected, found = np.split(own, places), np.split(self.native.state[-len(own) :], places)

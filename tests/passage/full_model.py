@@ -6,9 +6,10 @@ step are found together by Newton's iteration. Only the element matrices are sha
 the mean deflection, as in the package, or the deflection of every point of the sleeper by itself.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy.sparse as sp
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from track_fmu.assembly import assemble, to_banded
@@ -26,6 +27,27 @@ ALPHA, BETA, DELTA, TAU = 0.37e12, -2.47e15, 5.75e18, 31e3 / 30e6
 def haversine(distance, length=0.1, depth=0.9e-3):
     a = abs(distance) / (0.5 * length)
     return 0.5 * depth * (1.0 + np.cos(np.pi * a)) if a < 1.0 else 0.0
+
+
+def varied(parameters, pads, beds):
+    """Matrices of a track with factors on its pads and ballast beds."""
+    matrices = assemble(parameters)
+    pad, bed = (
+        part @ sp.diags_array(factors) @ part.T
+        for part, factors in (
+            (matrices.pad_incidence, pads - 1.0),
+            (matrices.ballast_incidence, beds - 1.0),
+        )
+    )
+    return replace(
+        matrices,
+        stiffness=sp.csc_array(
+            matrices.stiffness + parameters.pad_stiffness * pad + parameters.ballast_stiffness * bed
+        ),
+        damping=sp.csc_array(
+            matrices.damping + parameters.pad_damping * pad + parameters.ballast_damping * bed
+        ),
+    )
 
 
 @dataclass
@@ -57,9 +79,21 @@ def local_beds(parameters, numbering):
 
 
 class FullModel:
-    def __init__(self, *, state_dependent=True, local=False, **values):
+    """The track; pads and ballast beds may have factors, and sleepers gaps under them.
+
+    Factors are in the matrices. Under a gap there is no linear ballast: all of its force is in the
+    law then.
+    """
+
+    def __init__(
+        self, *, state_dependent=True, local=False, pads=None, beds=None, gaps=None, **values
+    ):
         self.parameters = TrackParameters(**values)
-        self.matrices = assemble(self.parameters)
+        ones = np.ones(self.parameters.supports)
+        self.factors = 1.0 if beds is None else beds
+        self.gaps = np.zeros(1) if gaps is None else gaps
+        linear_beds = np.where(self.gaps > 0.0, 0.0, self.factors) * ones
+        self.matrices = varied(self.parameters, ones if pads is None else pads, linear_beds)
         self.scale = 1.0 if state_dependent else 0.0
         self.sleeper = self.matrices.numbering.sleeper
         self.size = self.matrices.mass.shape[0]
@@ -77,10 +111,17 @@ class FullModel:
 
     def ballast(self, x, v):
         """Increment and its derivatives by displacement and velocity."""
-        x = self.scale * np.maximum(x, 0.0)
-        secant = self.share * x * (ALPHA + x * (BETA + x * DELTA))
-        slope = self.share * (ALPHA + x * (2 * BETA + x * 3 * DELTA))
-        return secant * (x + TAU * v), secant + slope * (x + TAU * v), TAU * secant
+        hangs = self.gaps > 0.0
+        x = self.scale * np.maximum(x - self.gaps, 0.0)
+        secant = x * (ALPHA + x * (BETA + x * DELTA)) + np.where(hangs, 30e6, 0.0)
+        slope = ALPHA + x * (2 * BETA + x * 3 * DELTA)
+        onset = np.where(hangs, np.minimum(x / 20e-6, 1.0), 1.0)
+        onset_slope = np.where(hangs & (x > 0.0) & (x < 20e-6), 1.0 / 20e-6, 0.0)
+        force = secant * (x + onset * TAU * v)
+        by_x = secant * (1.0 + onset_slope * TAU * v) + slope * (x + onset * TAU * v)
+        gone = hangs & ((x <= 0.0) | (force < 0.0))
+        values = (force, by_x, onset * TAU * secant)
+        return tuple(self.share * self.factors * np.where(gone, 0.0, value) for value in values)
 
     def equilibrium(self, positions):
         columns = self.contact_columns(positions)

@@ -1,13 +1,17 @@
 """The dynamic track against a full finite element solution and its own invariants."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 from track_fmu.ballast import PolynomialBallast
 from track_fmu.beam_element import mass_matrix, stiffness_matrix
+from track_fmu.characteristics import LinearCharacteristic
 from track_fmu.contact_point import locate
-from track_fmu.pads import CharacteristicPad
+from track_fmu.pads import TotalPad
+from track_fmu.support_factors import SupportFactors
 from track_fmu.track_model import TrackModel, TrackOptions
 
 from .reference import MIDSPAN, STATIC_LOAD, Track, one_wheel
@@ -283,13 +287,12 @@ def test_work_of_the_load_is_stored_or_dissipated(short):
 def test_pads_changed_by_increments_are_pads_changed_in_the_matrices(short):
     """Eq. (20): twice the pad stiffness and damping, by force law and by assembly."""
     stiffer = Track(69, bays=8, elements_per_bay=4, pad_stiffness=2 * 80e6, pad_damping=2 * 15e3)
-    pad = CharacteristicPad(
-        spring=lambda x: 160e6 * x,
-        spring_stiffness=lambda x: np.full_like(x, 160e6),
-        damper=lambda v: 30e3 * v,
-        damper_damping=lambda v: np.full_like(v, 30e3),
+    twice = np.full(7, 2.0)
+    pad = TotalPad(
+        characteristic=LinearCharacteristic(),
         linear_stiffness=80e6,
         linear_damping=15e3,
+        factors=replace(SupportFactors.nominal(7), pad_stiffness=twice, pad_damping=twice),
     )
     stop, differences = 0.02, []
     for count in (500, 1000):

@@ -44,6 +44,12 @@ static inline const double *rc_flexibility(const rc_basis *basis, size_t coordin
     return basis->flexibility + coordinate * basis->coordinates;
 }
 
+/* Ballast, then pads. */
+static inline size_t rc_component(const rc_basis *basis, size_t number)
+{
+    return 2 * basis->nodes + number;
+}
+
 static inline size_t rc_ballast(const rc_basis *basis, size_t support)
 {
     return 2 * basis->nodes + support;

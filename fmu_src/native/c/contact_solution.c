@@ -20,7 +20,8 @@ static double dot(const double *a, const double *b, size_t count)
     return sum;
 }
 
-/* How increments and rail displacements answer to forces, with the tangents at the step's start. */
+/* How increments and rail displacements answer to forces, with the tangents at the step's start, or
+ * where they were taken last. */
 static void find_answer(const rc_track *track, const rc_contact_work *work)
 {
     const rc_operator *op = &track->operator_;
@@ -138,9 +139,14 @@ int rc_solve_contact(rc_track *track, rc_contact_work *work, double coefficient,
     memcpy(trial->compression, compression, track->basis.wheels * sizeof(double));
     for (size_t a = 0; a < op->active.count; ++a)
         trial->increment[a] = start.increment[op->active.number[a]];
-    find_answer(track, work);
+    if (!rc_is_stiff(&track->laws))
+        find_answer(track, work);
     complete(track, trial, coefficient, level);
     for (int iteration = 0; iteration < MOST_ITERATIONS; ++iteration) {
+        if (rc_is_stiff(&track->laws)) {
+            rc_linearise_increments(track, trial->force, trial->increment);
+            find_answer(track, work);
+        }
         if (!find_change(track, work, coefficient, trial))
             return 0;
         search(track, work, trial, next, coefficient, level);

@@ -106,20 +106,39 @@ int rc_make_periodic(rc_curve *curve, const double *x, const double *y, size_t p
     return made;
 }
 
-double rc_curve_at(const rc_curve *curve, double x)
+/* The piece that holds x: breaks[piece] <= x < breaks[piece + 1]. */
+static size_t find_piece(const rc_curve *curve, double x)
 {
     size_t low = 0, high = curve->points - 1;
-    if (x <= curve->breaks[low])
-        return curve->first;
-    if (x >= curve->breaks[high])
-        return curve->last;
-    while (high - low > 1) { /* breaks[low] <= x < breaks[high] */
+    while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
         if (x < curve->breaks[middle])
             high = middle;
         else
             low = middle;
     }
+    return low;
+}
+
+void rc_curve_along(const rc_curve *curve, double x, double jet[3])
+{
+    const double begin = curve->breaks[0], end = curve->breaks[curve->points - 1];
+    const double inside = x < begin ? begin : x > end ? end : x;
+    const size_t low = find_piece(curve, inside);
+    const double *piece = curve->pieces + 4 * low;
+    const double d = inside - curve->breaks[low];
+    jet[1] = piece[1] + d * (2.0 * piece[2] + d * 3.0 * piece[3]);
+    jet[0] = piece[0] + d * (piece[1] + d * (piece[2] + d * piece[3])) + jet[1] * (x - inside);
+    jet[2] = x > begin && x < end ? 2.0 * piece[2] + 6.0 * piece[3] * d : 0.0;
+}
+
+double rc_curve_at(const rc_curve *curve, double x)
+{
+    if (x <= curve->breaks[0])
+        return curve->first;
+    if (x >= curve->breaks[curve->points - 1])
+        return curve->last;
+    const size_t low = find_piece(curve, x);
     const double *piece = curve->pieces + 4 * low;
     const double d = x - curve->breaks[low];
     return piece[0] + d * (piece[1] + d * (piece[2] + d * piece[3]));

@@ -25,6 +25,9 @@ int rc_make_cubic(rc_curve *curve, const double *x, const double *y, const doubl
 
 double rc_curve_at(const rc_curve *curve, double x);
 
+/* Value and first and second derivative; beyond its ends a curve goes on along its tangents. */
+void rc_curve_along(const rc_curve *curve, double x, double jet[3]);
+
 void rc_free_curve(rc_curve *curve);
 
 #endif

@@ -102,7 +102,7 @@ static int choose_shape(rc_flat *flat, char *message, size_t room)
 static int read_profile(rc_flat *flat, double extent[2], double range[2], char *message,
                         size_t room)
 {
-    static const rc_table_kind kind = {"wheel profile", "distance [m]", "drop [m]", 4};
+    static const rc_table_kind kind = {"wheel profile", "distance [m]", "drop [m]", 4, 2};
     rc_table table;
     if (!rc_read_table(&table, flat->shape_name, &kind, message, room))
         return 0;

@@ -8,6 +8,7 @@
 #define RELATIVE_TOLERANCE 1e-13
 #define ABSOLUTE_TOLERANCE 1e-9 /* N */
 #define MOST_SWEEPS 30
+#define MOST_HALVINGS 6
 
 /* Deformations at the end of the step under given forces and increments. */
 static void deform(const rc_operator *op, const double *forces, size_t wheels,
@@ -53,17 +54,30 @@ static int invert_jacobian(rc_track *track, const double *stiffness, const doubl
     return rc_invert(matrix, count, stride, track->pivot);
 }
 
-void rc_linearise_increments(rc_track *track, const rc_track_state *state)
+/* What pads remember at the beginning of the step. */
+static rc_pad_memory remembered(const rc_track *track)
+{
+    const rc_operator *op = &track->operator_;
+    const rc_track_state start = rc_view_state(&track->basis, op->start);
+    return (rc_pad_memory){op->step, start.branch_force, start.compression, start.known};
+}
+
+void rc_linearise_increments(rc_track *track, const double *forces, const double *increment)
 {
     rc_operator *op = &track->operator_;
     const size_t count = op->active.count, stride = op->active.stride;
-    double *increment = track->small, *deformation = increment + stride;
-    gather(&op->active, state->increment, increment);
-    deform(op, state->force, track->basis.wheels, increment, deformation);
-    for (size_t a = 0; a < count; ++a) {
-        op->stiffness[a] = rc_ballast_stiffness(&track->law, deformation[a]);
-        op->damping[a] = rc_ballast_damping(&track->law, deformation[a]);
+    const size_t wheels = track->basis.wheels;
+    double *first = track->small, *deformation = first + stride, *rate = deformation + stride;
+    const rc_pad_memory memory = remembered(track);
+    if (increment == NULL) {
+        gather(&op->active, rc_view_state(&track->basis, op->start).increment, first);
+        increment = first;
     }
+    deform(op, forces, wheels, increment, deformation);
+    if (rc_is_stiff(&track->laws))
+        change_rates(op, forces, wheels, increment, rate);
+    rc_law_tangents(&track->laws, &op->active, &memory, deformation, rate, 0, op->stiffness,
+                    op->damping);
     if (!invert_jacobian(track, op->stiffness, op->damping, op->correction))
         for (size_t k = 0; k < count * stride; ++k)
             op->correction[k] = NAN; /* the sweeps will not converge, which is told */
@@ -76,8 +90,65 @@ void rc_demand_increments(rc_track *track, const double *forces, const double *i
     double *deformation = track->small, *rate = deformation + op->active.stride;
     deform(op, forces, track->basis.wheels, increment, deformation);
     change_rates(op, forces, track->basis.wheels, increment, rate);
-    for (size_t a = 0; a < op->active.count; ++a)
-        demanded[a] = rc_ballast_force(&track->law, deformation[a], rate[a]);
+    const rc_pad_memory memory = remembered(track);
+    rc_law_forces(&track->laws, &op->active, &memory, deformation, rate, demanded);
+}
+
+void rc_remember_pads(rc_track *track, const double *forces, rc_track_state *state)
+{
+    const rc_operator *op = &track->operator_;
+    double *deformation = track->small, *rate = deformation + op->active.stride;
+    const rc_pad_memory memory = remembered(track);
+    deform(op, forces, track->basis.wheels, op->increment, deformation);
+    change_rates(op, forces, track->basis.wheels, op->increment, rate);
+    memset(state->branch_force, 0, 3 * track->basis.supports * sizeof(double));
+    rc_law_memories(&track->laws, &op->active, &memory, deformation, rate, state->branch_force,
+                    state->compression, state->known);
+}
+
+/* What is missed where the increments are these; the largest of it. */
+static double miss_increments(rc_track *track, const double *forces, const double *increment,
+                              double *miss)
+{
+    const size_t count = track->operator_.active.count;
+    rc_demand_increments(track, forces, increment, miss);
+    for (size_t a = 0; a < count; ++a)
+        miss[a] -= increment[a];
+    return rc_largest(miss, count);
+}
+
+/* Newton's iteration with the Jacobian of every sweep, and shorter changes where they help. */
+static int solve_stiffly(rc_track *track, const double *forces)
+{
+    rc_operator *op = &track->operator_;
+    const size_t count = op->active.count, stride = op->active.stride;
+    double *increment = op->increment, *miss = track->small + 3 * stride, *change = miss + stride;
+    double *new = change + stride, *new_miss = new + stride;
+    double size = miss_increments(track, forces, increment, miss);
+    for (int sweep = 0; sweep < MOST_SWEEPS && isfinite(size); ++sweep) {
+        rc_linearise_increments(track, forces, increment);
+        rc_transform(change, op->correction, miss, count, stride);
+        const double largest = rc_largest(change, count);
+        if (!isfinite(largest))
+            return 0;
+        if (largest <= RELATIVE_TOLERANCE * rc_largest(increment, count) + ABSOLUTE_TOLERANCE) {
+            for (size_t a = 0; a < count; ++a)
+                increment[a] += change[a];
+            return 1;
+        }
+        double share = 1.0, new_size = size;
+        for (int halvings = 0; halvings < MOST_HALVINGS; ++halvings, share *= 0.5) {
+            for (size_t a = 0; a < count; ++a)
+                new[a] = increment[a] + share * change[a];
+            new_size = miss_increments(track, forces, new, new_miss);
+            if (new_size <= size)
+                break;
+        }
+        memcpy(increment, new, count * sizeof(double));
+        memcpy(miss, new_miss, count * sizeof(double));
+        size = new_size;
+    }
+    return 0;
 }
 
 int rc_solve_increments(rc_track *track, const double *forces)
@@ -88,6 +159,8 @@ int rc_solve_increments(rc_track *track, const double *forces)
     double *change = track->small + 2 * stride, *defect = change + stride;
     const rc_track_state start = rc_view_state(&track->basis, op->start);
     gather(&op->active, start.increment, increment);
+    if (rc_is_stiff(&track->laws))
+        return count == 0 || solve_stiffly(track, forces);
     for (int sweep = 0; count > 0; ++sweep) {
         rc_demand_increments(track, forces, increment, defect);
         for (size_t a = 0; a < count; ++a)
@@ -120,9 +193,9 @@ int rc_change_increments(rc_track *track, const double *forces, const double *fo
     double *matrix = change + stride;
     deform(op, forces, wheels, op->increment, deformation);
     change_rates(op, forces, wheels, op->increment, rate);
+    const rc_pad_memory memory = remembered(track);
+    rc_law_tangents(&track->laws, &op->active, &memory, deformation, rate, 1, tangent, damping);
     for (size_t a = 0; a < count; ++a) {
-        tangent[a] = rc_ballast_tangent(&track->law, deformation[a], rate[a]);
-        damping[a] = rc_ballast_damping(&track->law, deformation[a]);
         demand[a] = 0.0;
         for (size_t j = 0; j < wheels; ++j)
             demand[a] += (tangent[a] * op->active_contact[j * stride + a] +

@@ -27,7 +27,7 @@ static int travel(rc_motion *motion, const rc_table *table)
 
 static int read_speeds(rc_motion *motion, const char *path, char *message, size_t room)
 {
-    static const rc_table_kind kind = {"speed table", "time [s]", "speed [m/s]", 2};
+    static const rc_table_kind kind = {"speed table", "time [s]", "speed [m/s]", 2, 2};
     rc_table table;
     if (!rc_read_table(&table, path, &kind, message, room))
         return 0;

@@ -11,6 +11,7 @@ typedef struct {
     const rc_track_state *state;
     const rc_rail_point *wheels;
     const double *modal, *modal_rate;
+    size_t increments;
 } view;
 
 void rc_view_motion(const rc_basis *basis, const rc_track_state *state, double *modal,
@@ -32,7 +33,8 @@ static view look(rc_track *track, const rc_track_state *state)
     const rc_basis *basis = &track->basis;
     rc_view_motion(basis, state, track->row, track->other_row);
     (void)rc_find_wheels(track, state, state->position); /* a step has led there */
-    return (view){basis, state, track->points, track->row, track->other_row};
+    return (view){basis,           state,      track->points, track->row, track->other_row,
+                  rc_increments(&track->laws)};
 }
 
 /* A line of residual flexibility times the forces on the coordinates. */
@@ -44,8 +46,8 @@ static double yield(const view *at, const double *line)
         sum += at->state->force[i] * ((four[0] * shape[0] + four[1] * shape[1]) +
                                       (four[2] * shape[2] + four[3] * shape[3]));
     }
-    line += rc_ballast(at->basis, 0);
-    for (size_t s = 0; s < at->basis->supports; ++s)
+    line += rc_component(at->basis, 0);
+    for (size_t s = 0; s < at->increments; ++s)
         sum -= at->state->increment[s] * line[s];
     return sum;
 }
@@ -62,8 +64,8 @@ static double yield_rate(const view *at, const double *line)
         for (size_t k = 0; k < 4; ++k)
             sum += four[k] * (state->force_rate[i] * wheel->shape[k] + moved * wheel->slope[k]);
     }
-    line += rc_ballast(at->basis, 0);
-    for (size_t s = 0; s < at->basis->supports; ++s)
+    line += rc_component(at->basis, 0);
+    for (size_t s = 0; s < at->increments; ++s)
         sum -= state->increment_rate[s] * line[s];
     return sum;
 }
@@ -213,7 +215,8 @@ void rc_observe(rc_track *track, const rc_track_state *state, rc_observed what, 
     case RC_PAD_FORCE:
         for (size_t s = 0; s < basis->supports; ++s)
             values[s] = basis->pad_stiffness * displacement(&at, rc_pad(basis, s)) +
-                        basis->pad_damping * rate(&at, rc_pad(basis, s));
+                        basis->pad_damping * rate(&at, rc_pad(basis, s)) +
+                        state->increment[basis->supports + s];
         break;
     case RC_BALLAST_FORCE:
         for (size_t s = 0; s < basis->supports; ++s)

@@ -39,18 +39,19 @@ static int serves(const rc_track *track, const double *dynamic, double step, int
 }
 
 /* The modal load of the increments alone. */
-static void add_increments(double *load, const rc_basis *basis, const double *increment)
+static void add_increments(double *load, const rc_basis *basis, const double *increment,
+                           size_t components)
 {
     const double *rows[4];
     double factors[4];
     size_t count = 0;
     memset(load, 0, basis->length * sizeof(double));
-    for (size_t support = 0; support < basis->supports; ++support) {
-        if (increment[support] != 0.0) {
-            rows[count] = rc_shape(basis, rc_ballast(basis, support));
-            factors[count++] = -increment[support];
+    for (size_t number = 0; number < components; ++number) {
+        if (increment[number] != 0.0) {
+            rows[count] = rc_shape(basis, rc_component(basis, number));
+            factors[count++] = -increment[number];
         }
-        if (count == 4 || support + 1 == basis->supports) {
+        if (count == 4 || number + 1 == components) {
             rc_add_combination(load, rows, factors, count, basis->length);
             count = 0;
         }
@@ -63,7 +64,8 @@ void rc_load_track(rc_track *track, rc_track_state *state)
     const size_t length = basis->length, half = basis->half;
     double *dual = track->duals, *row = track->row;
     const double *const rows[1] = {row};
-    add_increments(state->load, basis, state->increment);
+    const size_t components = rc_increments(&track->laws);
+    add_increments(state->load, basis, state->increment, components);
     for (size_t n = 0; n < half; ++n) {
         dual[n] = basis->weight[n] * state->modal[n];
         dual[half + n] = -basis->weight[n] * state->modal[half + n];
@@ -76,9 +78,9 @@ void rc_load_track(rc_track *track, rc_track_state *state)
         for (size_t j = 0; j < basis->wheels; ++j)
             sum += rc_residual_between(basis, wheel, wheel->shape, &track->points[j],
                                        track->points[j].shape) * state->force[j];
-        for (size_t s = 0; s < basis->supports; ++s)
+        for (size_t s = 0; s < components; ++s)
             if (state->increment[s] != 0.0)
-                sum -= rc_residual(basis, wheel, rc_ballast(basis, s)) * state->increment[s];
+                sum -= rc_residual(basis, wheel, rc_component(basis, s)) * state->increment[s];
         state->displacement[i] = sum;
     }
 }
@@ -90,7 +92,7 @@ static void move_freely(rc_track *track, const rc_track_state *state)
     rc_operator *op = &track->operator_;
     const double *load = state->load;
     if (!op->linear) { /* the contact forces jump; the increments do not */
-        add_increments(track->row, basis, state->increment);
+        add_increments(track->row, basis, state->increment, rc_increments(&track->laws));
         load = track->row;
     }
     rc_multiply(op->free, op->exponential->decay, state->modal, basis->half);
@@ -157,7 +159,7 @@ static void fill_active(rc_track *track)
                stride * sizeof(double));
         for (size_t a = 0; a < count; ++a) {
             const double residual =
-                rc_residual(basis, &op->wheels[j], rc_ballast(basis, op->active.number[a]));
+                rc_residual(basis, &op->wheels[j], rc_component(basis, op->active.number[a]));
             op->active_contact[j * stride + a] = drive[a] + residual;
             op->contact_active[j * stride + a] = end[a] + residual;
         }
@@ -190,6 +192,7 @@ void rc_prepare_operator(rc_track *track, const double *dynamic, double step, in
     fill_duals(track);
     fill_contacts(track);
     fill_active(track);
-    rc_linearise_increments(track, &state);
+    if (!rc_is_stiff(&track->laws))
+        rc_linearise_increments(track, state.force, NULL);
     op->made = 1;
 }

@@ -55,10 +55,13 @@ void rc_move_track(rc_track *track, rc_track_state *state, const double *forces)
     memcpy(state->modal, op->free, basis->length * sizeof(double));
     drive(track, forces, op->increment, state);
     rc_press_rail(track, forces, op->increment, state->displacement);
-    memset(state->increment, 0, basis->supports * sizeof(double));
+    if (track->laws.pad == RC_VISCOELASTIC)
+        rc_remember_pads(track, forces, state);
+    const size_t components = rc_increments(&track->laws);
+    memset(state->increment, 0, components * sizeof(double));
     for (size_t a = 0; a < op->active.count; ++a)
         state->increment[op->active.number[a]] = op->increment[a];
-    for (size_t s = 0; s < basis->supports; ++s)
+    for (size_t s = 0; s < components; ++s)
         state->increment_rate[s] = (state->increment[s] - start.increment[s]) / op->step;
     for (size_t i = 0; i < basis->wheels; ++i) {
         const int linear = op->linear;
@@ -90,7 +93,7 @@ int rc_differentiate_operator(rc_track *track, const double *force_change, rc_tr
     drive(track, force_change, increment, change);
     memset(change->displacement, 0, wheels * sizeof(double));
     press_contacts(track, force_change, increment, change->displacement);
-    memset(change->increment, 0, 2 * basis->supports * sizeof(double));
+    memset(change->increment, 0, 4 * basis->supports * sizeof(double)); /* and their rates */
     for (size_t a = 0; a < count; ++a) {
         change->increment[op->active.number[a]] = increment[a];
         change->increment_rate[op->active.number[a]] = increment[a] / op->step;

@@ -45,18 +45,17 @@ double rc_ballast_tangent(const rc_ballast_law *law, double deformation, double 
     return slope * (x + law->tau * rate) + secant(law, x);
 }
 
-static void add_range(rc_active *active, const rc_basis *basis, size_t first, size_t end)
+static void add_range(rc_active *active, size_t first, size_t end)
 {
     const size_t count = active->count;
     const size_t from = count > 0 ? active->number[count - 1] + 1 : 0;
     for (size_t support = first > from ? first : from; support < end; ++support) {
-        active->number[active->count] = support;
-        active->rows[active->count++] = rc_shape(basis, rc_ballast(basis, support));
+        active->number[active->count++] = support;
     }
 }
 
 void rc_choose_active(rc_active *active, const rc_basis *basis, const double *positions,
-                      size_t per_wheel, size_t *first)
+                      size_t per_wheel, int ballast, int pads, size_t *first)
 {
     const size_t count = per_wheel < basis->supports ? per_wheel : basis->supports;
     const double last = (double)(basis->supports - count);
@@ -71,7 +70,15 @@ void rc_choose_active(rc_active *active, const rc_basis *basis, const double *po
         first[place] = (size_t)wanted;
     }
     for (size_t i = 0; i < basis->wheels; ++i)
-        add_range(active, basis, first[i], first[i] + count);
+        add_range(active, first[i], first[i] + count);
+    const size_t chosen = active->count, before = ballast ? chosen : 0;
+    if (pads) {
+        for (size_t a = 0; a < chosen; ++a)
+            active->number[before + a] = basis->supports + active->number[a];
+        active->count = before + chosen;
+    }
+    for (size_t a = 0; a < active->count; ++a)
+        active->rows[a] = rc_shape(basis, rc_component(basis, active->number[a]));
     active->stride = rc_stride(active->count);
 }
 
@@ -113,8 +120,8 @@ void rc_modal_coupling(double *out, const rc_active *active, const double *facto
 void rc_add_residual(double *out, const rc_active *active, const rc_basis *basis)
 {
     for (size_t a = 0; a < active->count; ++a) {
-        const double *row = rc_flexibility(basis, rc_ballast(basis, active->number[a])) +
-                            rc_ballast(basis, 0);
+        const double *row = rc_flexibility(basis, rc_component(basis, active->number[a])) +
+                            rc_component(basis, 0);
         for (size_t b = 0; b < active->count; ++b)
             out[a * active->stride + b] += row[active->number[b]];
     }

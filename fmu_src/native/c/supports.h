@@ -21,16 +21,17 @@ double rc_ballast_damping(const rc_ballast_law *law, double deformation);
 /* The derivative of the force by the deformation at any rate [N/m]. */
 double rc_ballast_tangent(const rc_ballast_law *law, double deformation, double rate);
 
-/* Supports whose increments are accounted for, in ascending order. */
+/* Components whose increments are accounted for, in ascending order. */
 typedef struct {
     size_t count, stride;
-    size_t *number;      /* of the support, from 0 */
-    const double **rows; /* modal deformation of their ballast */
+    size_t *number;      /* among all: ballast from 0 on, then pads */
+    const double **rows; /* their modal deformation */
 } rc_active;
 
-/* Chooses the `per_wheel` supports nearest to every wheel; `first` has room for the wheels. */
+/* Chooses ballast and pads, whichever is asked for, of the `per_wheel` supports nearest to every
+ * wheel; `first` has room for the wheels. */
 void rc_choose_active(rc_active *active, const rc_basis *basis, const double *positions,
-                      size_t per_wheel, size_t *first);
+                      size_t per_wheel, int ballast, int pads, size_t *first);
 
 int rc_same_active(const rc_active *a, const rc_active *b);
 void rc_copy_active(rc_active *to, const rc_active *from);

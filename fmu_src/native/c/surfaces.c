@@ -6,7 +6,7 @@
 
 static rc_status read_irregularity(rc_model *model, rc_surfaces *surfaces, const char *path)
 {
-    static const rc_table_kind kind = {"rail irregularity", "position [m]", "drop [m]", 4};
+    static const rc_table_kind kind = {"rail irregularity", "position [m]", "drop [m]", 4, 2};
     rc_table table;
     if (path[0] == '\0')
         return RC_OK;

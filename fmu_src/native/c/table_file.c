@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COLUMNS 2
+#define COLUMNS 4
+#define FEWEST_COLUMNS 2
 #define CELL 64 /* longest number, its end included */
 #define LONGEST_FILE ((size_t)1 << 30)
 
@@ -69,7 +70,7 @@ typedef struct {
 /* Splits a line [from, to); `separators` are single, white space counts as one. */
 static row split(const char *from, const char *to)
 {
-    row found = {0, 0, {0.0, 0.0}};
+    row found = {0, 0, {0.0}};
     const int separated = memchr(from, ',', (size_t)(to - from)) != NULL ||
                           memchr(from, ';', (size_t)(to - from)) != NULL;
     while (from <= to) {
@@ -99,6 +100,14 @@ static size_t count_lines(const char *text)
     return lines;
 }
 
+static int is_good(const row *found, size_t columns)
+{
+    for (size_t c = 0; c < columns; ++c)
+        if (!isfinite(found->values[c]))
+            return 0;
+    return found->cells == columns && found->numbers == columns;
+}
+
 /* Takes the rows of a text; 0 and a sentence if there is something wrong with one. */
 static int take_rows(rc_table *table, const char *text, const char *path,
                      const rc_table_kind *kind, char *message, size_t room)
@@ -112,15 +121,22 @@ static int take_rows(rc_table *table, const char *text, const char *path,
             const row found = split(first, end);
             const int header = header_allowed && found.numbers == 0;
             header_allowed = 0;
-            if (!header && (found.cells != COLUMNS || found.numbers != COLUMNS ||
-                            !isfinite(found.values[0]) || !isfinite(found.values[1]))) {
-                snprintf(message, room, "table %s, line %zu: must be two finite numbers, %s and %s",
-                         path, number, kind->x_name, kind->y_name);
+            if (!header && table->rows == 0 && kind->most == COLUMNS && found.cells == COLUMNS)
+                table->columns = COLUMNS; /* the first row says how many there are */
+            if (!header && !is_good(&found, table->columns)) {
+                if (kind->most == COLUMNS)
+                    snprintf(message, room, "table %s, line %zu: must be %zu finite numbers", path,
+                             number, table->columns);
+                else
+                    snprintf(message, room, "table %s, line %zu: must be two finite numbers, %s "
+                                            "and %s", path, number, kind->x_name, kind->y_name);
                 return 0;
             }
             if (!header) {
-                table->x[table->rows] = found.values[0];
-                table->y[table->rows++] = found.values[1];
+                double *const columns[COLUMNS] = {table->x, table->y, table->third, table->fourth};
+                for (size_t c = 0; c < table->columns; ++c)
+                    columns[c][table->rows] = found.values[c];
+                ++table->rows;
             }
         }
         line = end + (end[0] == '\r' && end[1] == '\n' ? 2 : end[0] != '\0');
@@ -164,12 +180,15 @@ int rc_read_table(rc_table *table, const char *path, const rc_table_kind *kind, 
     }
     const char *content = strncmp(text, "\xEF\xBB\xBF", 3) == 0 ? text + 3 : text;
     const size_t lines = count_lines(content);
-    table->x = malloc(sizeof(double) * 2 * lines);
+    table->x = malloc(sizeof(double) * COLUMNS * lines);
+    table->columns = FEWEST_COLUMNS;
     int good = 0;
     if (table->x == NULL)
         snprintf(message, room, "table %s: there is not enough memory for it", path);
     else {
         table->y = table->x + lines;
+        table->third = table->y + lines;
+        table->fourth = table->third + lines;
         good = take_rows(table, content, path, kind, message, room) &&
                check(table, kind, message, room);
     }

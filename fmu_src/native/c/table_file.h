@@ -1,12 +1,13 @@
-/* Numeric tables of two columns in CSV files; twin of fmu_src/python/tables.py. */
+/* Numeric tables of two columns, or four where that is allowed, in CSV files; twin of fmu_src/python/tables.py. */
 #ifndef RC_TABLE_FILE_H
 #define RC_TABLE_FILE_H
 
 #include <stddef.h>
 
 typedef struct {
-    double *x, *y; /* free x alone */
-    size_t rows;
+    double *x, *y;            /* free x alone */
+    double *third, *fourth;   /* where there are four columns */
+    size_t rows, columns;
 } rc_table;
 
 /* What a table must be. */
@@ -14,6 +15,7 @@ typedef struct {
     const char *what;        /* "wheel profile" */
     const char *x_name, *y_name; /* "distance [m]", "drop [m]" */
     size_t least;            /* number of rows */
+    size_t most;             /* number of columns: 2, or 4 for 2 or 4 */
 } rc_table_kind;
 
 /* Reads a table and checks that x increases strictly; 0 and a sentence if it cannot be used.

@@ -4,16 +4,19 @@
 
 #include "basis.h"
 #include "exponential.h"
+#include "laws.h"
 #include "rail_point.h"
 #include "supports.h"
 
 #define RC_LONGEST_STEP 5e-4 /* s; longer ones are divided */
+#define RC_SMALL_ROWS 14     /* strides in track->small */
 #define RC_MOST_FORCE 1e30   /* N; nothing that follows from less overflows */
 
 /* Where the dynamic values of a state are; twin of track_fmu/track_state.py. */
 typedef struct {
     double *position, *speed, *force, *force_rate, *displacement; /* (wheels) */
-    double *increment, *increment_rate;                           /* (supports), of the ballast */
+    double *increment, *increment_rate; /* (2 supports): of ballast, then pads */
+    double *branch_force, *compression, *known; /* (supports): what viscoelastic pads remember */
     double *modal, *load;                                         /* rows */
     double *offset; /* bays by which the window of an endless track has moved */
 } rc_track_state;
@@ -48,8 +51,7 @@ typedef struct {
 
 typedef struct {
     rc_basis basis;
-    rc_ballast_law law;
-    int state_dependent;
+    rc_laws laws;
     int endless;
     int linear; /* of the last step */
     size_t per_wheel, room; /* room: most active supports, filled up */
@@ -93,13 +95,18 @@ int rc_static_start(rc_track *track, rc_track_state *state, const double *forces
 void rc_prepare_operator(rc_track *track, const double *dynamic, double step, int linear,
                          const double *positions);
 
-/* The Jacobian of the increments' equation at the forces of the step's start: it depends on
- * nothing but the state, so that a repeated step is the same bit for bit. */
-void rc_linearise_increments(rc_track *track, const rc_track_state *state);
+/* The Jacobian of the increments' equation at given forces and active increments, those of the
+ * step's start if they are NULL: there it depends on nothing but the state, so that a repeated step
+ * is the same bit for bit; for stiff laws it is worked out before every use. */
+void rc_linearise_increments(rc_track *track, const double *forces, const double *increment);
 
 /* Leaves in the operator the increments that are consistent with the motion they cause, by
  * Newton's iteration with that Jacobian; 0 if it does not converge. */
 int rc_solve_increments(rc_track *track, const double *forces);
+
+/* Notes what viscoelastic pads remember of the end of the step under given forces and the operator's
+ * increments. */
+void rc_remember_pads(rc_track *track, const double *forces, rc_track_state *state);
 
 /* Increments that the motion under given forces and increments asks for. */
 void rc_demand_increments(rc_track *track, const double *forces, const double *increment,

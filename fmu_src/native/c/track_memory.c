@@ -6,20 +6,25 @@
 
 size_t rc_count_state(const rc_basis *basis)
 {
-    return 5 * basis->wheels + 2 * basis->supports + 2 * basis->length + 1;
+    return 5 * basis->wheels + 7 * basis->supports + 2 * basis->length + 1;
 }
 
 rc_track_state rc_view_state(const rc_basis *basis, double *values)
 {
     const size_t wheels = basis->wheels;
-    double *supports = values + 5 * wheels, *rows = supports + 2 * basis->supports;
+    const size_t supports = basis->supports;
+    double *increment = values + 5 * wheels, *memory = increment + 4 * supports;
+    double *rows = memory + 3 * supports;
     return (rc_track_state){.position = values,
                             .speed = values + wheels,
                             .force = values + 2 * wheels,
                             .force_rate = values + 3 * wheels,
                             .displacement = values + 4 * wheels,
-                            .increment = supports,
-                            .increment_rate = supports + basis->supports,
+                            .increment = increment,
+                            .increment_rate = increment + 2 * supports,
+                            .branch_force = memory,
+                            .compression = memory + supports,
+                            .known = memory + 2 * supports,
                             .modal = rows,
                             .load = rows + basis->length,
                             .offset = rows + 2 * basis->length};
@@ -27,10 +32,11 @@ rc_track_state rc_view_state(const rc_basis *basis, double *values)
 
 int rc_is_finite(const rc_basis *basis, const rc_track_state *state)
 {
-    double sum = 0.0; /* of differences with themselves: zero or no number */
-    for (size_t i = 0; i < 5 * basis->wheels + 2 * basis->supports; ++i)
-        sum += state->position[i] - state->position[i];
-    return sum == 0.0;
+    double sums[4] = {0.0}; /* of differences with themselves: zero or no number */
+    const double *values = state->position;
+    for (size_t i = 0; i < 5 * basis->wheels + 7 * basis->supports; ++i)
+        sums[i % 4] += values[i] - values[i];
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]) == 0.0;
 }
 
 /* Hands out memory, or only measures it while `memory` is NULL. */
@@ -117,7 +123,7 @@ static void take_all(store *from, rc_track *track, size_t room)
     track->dual_rows = take(from, duals, sizeof(double *));
     track->products = numbers(from, 3 * room * room + duals * room + wheels * (1 + wheels));
     track->scratch = numbers(from, RC_COUPLING_COLUMNS * (length + room));
-    track->small = numbers(from, 9 * room);
+    track->small = numbers(from, RC_SMALL_ROWS * room);
     track->row = numbers(from, length);
     track->other_row = numbers(from, length);
     track->inside = numbers(from, wheels);
@@ -131,6 +137,12 @@ static void take_all(store *from, rc_track *track, size_t room)
     track->pressed = numbers(from, wheels);
 }
 
+static void release_memory(rc_track *track)
+{
+    free(track->memory);
+    track->memory = NULL;
+}
+
 rc_status rc_claim_track(rc_model *model, rc_track *track)
 {
     const rc_basis *basis = &track->basis;
@@ -138,9 +150,9 @@ rc_status rc_claim_track(rc_model *model, rc_track *track)
         track->per_wheel < basis->supports ? track->per_wheel : basis->supports;
     const size_t most = basis->wheels * per_wheel < basis->supports ? basis->wheels * per_wheel
                                                                     : basis->supports;
-    const size_t room = track->room = rc_stride(most);
+    const size_t room = track->room = rc_stride(most * rc_kinds(&track->laws));
     store sizes = {NULL, 0};
-    rc_release_track(track);
+    release_memory(track);
     take_all(&sizes, track, room);
     track->memory = calloc(1, sizes.used + ALIGNMENT);
     if (track->memory == NULL)
@@ -157,8 +169,8 @@ rc_status rc_claim_track(rc_model *model, rc_track *track)
 
 void rc_release_track(rc_track *track)
 {
-    free(track->memory);
-    track->memory = NULL;
+    release_memory(track);
+    rc_free_laws(&track->laws);
 }
 
 void rc_choose_supports(rc_track *track, const rc_track_state *state, const double *positions)
@@ -166,8 +178,10 @@ void rc_choose_supports(rc_track *track, const rc_track_state *state, const doub
     const double begin = rc_window_position(&track->basis, state);
     for (size_t i = 0; i < track->basis.wheels; ++i)
         track->inside[i] = positions[i] - begin;
-    if (track->state_dependent)
-        rc_choose_active(&track->active, &track->basis, track->inside, track->per_wheel,
+    const int ballast = track->laws.ballast != RC_NO_INCREMENT;
+    const int pads = track->laws.pad != RC_NO_INCREMENT;
+    if (ballast || pads)
+        rc_choose_active(&track->active, &track->basis, track->inside, track->per_wheel, ballast, pads,
                          track->first);
     else
         track->active.count = track->active.stride = 0;

@@ -16,26 +16,6 @@ rc_status rc_open_track(rc_model *model, rc_track *track)
     return RC_OK;
 }
 
-static rc_status read_ballast(rc_model *model, rc_track *track)
-{
-    const char *kind = rc_text(model, BALLAST);
-    track->state_dependent = strcmp(kind, "state_dependent") == 0;
-    if (!track->state_dependent && strcmp(kind, "linear") != 0)
-        return rc_fail(model, RC_ERROR, "track: ballast is '%s'; it must be 'state_dependent' or "
-                                        "'linear'", kind);
-    track->law = (rc_ballast_law){
-        .alpha = *rc_values(model, BALLAST_ALPHA),
-        .beta = *rc_values(model, BALLAST_BETA),
-        .delta = *rc_values(model, BALLAST_DELTA),
-        .tau = track->basis.ballast_damping / track->basis.ballast_stiffness};
-    const rc_ballast_law *law = &track->law;
-    if (track->state_dependent &&
-        !(isfinite(law->alpha) && isfinite(law->beta) && isfinite(law->delta)))
-        return rc_fail(model, RC_ERROR, "ballast: alpha = %g, beta = %g, delta = %g must be finite "
-                                        "numbers", law->alpha, law->beta, law->delta);
-    return RC_OK;
-}
-
 static rc_status refuse_position(rc_model *model, const rc_track *track, rc_status status,
                                  double position)
 {
@@ -57,10 +37,12 @@ rc_status rc_prepare_track(rc_model *model, rc_track *track)
         return rc_fail(model, RC_ERROR, "track: initial_speed = %g m/s must be finite",
                        track->initial_speed);
     track->endless = *rc_values(model, ENDLESS) != 0.0;
+    if (rc_read_laws(model, track) != RC_OK)
+        return RC_ERROR;
     if (track->endless && track->basis.sleeper_shape != NULL)
         return rc_fail(model, RC_ERROR,
                        "track: endless is true, but a track of sleepers that bend cannot be");
-    if (read_ballast(model, track) != RC_OK || rc_claim_track(model, track) != RC_OK)
+    if (rc_claim_track(model, track) != RC_OK)
         return RC_ERROR;
     for (size_t k = 0; k < track->basis.gauges; ++k) {
         const double position = track->gauge_position[k] = rc_values(model, GAUGE_POSITION)[k];
@@ -111,7 +93,8 @@ rc_status rc_start_track(rc_model *model, rc_track *track, rc_track_state *state
     rc_choose_supports(track, state, positions);
     if (!rc_static_start(track, state, forces))
         return rc_fail(model, RC_ERROR, "track: no static equilibrium found under the contact "
-                                        "forces; check the ballast law");
+                                        "forces, or none in which all loads on ballast and pads "
+                                        "rise with displacement; check their laws");
     memcpy(state->position, positions, track->basis.wheels * sizeof(double));
     return RC_OK;
 }

@@ -13,7 +13,9 @@ enum {
     SLEEPER_SHEAR_STIFFNESS, SLEEPER_MASS_PER_LENGTH, SLEEPER_ROTARY_INERTIA, SLEEPER_ELEMENTS,
     BALLAST, BALLAST_ALPHA, BALLAST_BETA, BALLAST_DELTA,
     MODE_PAIRS, RESIDUAL_FLEXIBILITY, SUPPORTS_PER_WHEEL, INITIAL_SPEED, ENDLESS,
-    GAUGE_POSITION,
+    BALLAST_SLOPE, BALLAST_TANGENT_DAMPING, BALLAST_PULLS, PAD, CLIP_PRELOAD,
+    PAD_STIFFNESS_FACTOR, PAD_DAMPING_FACTOR, BALLAST_STIFFNESS_FACTOR, BALLAST_DAMPING_FACTOR,
+    SUPPORT_GAP, FASTENED, GAUGE_POSITION,
     RC_TRACK_PARAMETER_COUNT
 };
 
@@ -46,6 +48,20 @@ enum {
     [SUPPORTS_PER_WHEEL] = {"supports_per_wheel", RC_INTEGER, RC_PARAMETER, RC_ONE},               \
     [INITIAL_SPEED] = {"initial_speed", RC_REAL, RC_PARAMETER, RC_ONE},                            \
     [ENDLESS] = {"endless", RC_BOOLEAN, RC_PARAMETER, RC_ONE},                                     \
+    [BALLAST_SLOPE] = {"ballast_slope", RC_REAL, RC_PARAMETER, RC_ONE},                            \
+    [BALLAST_TANGENT_DAMPING] = {"ballast_tangent_damping", RC_BOOLEAN, RC_PARAMETER, RC_ONE},     \
+    [BALLAST_PULLS] = {"ballast_pulls", RC_BOOLEAN, RC_PARAMETER, RC_ONE},                         \
+    [PAD] = {"pad", RC_TEXT, RC_PARAMETER, RC_ONE},                                                \
+    [CLIP_PRELOAD] = {"clip_preload", RC_REAL, RC_PARAMETER, RC_ONE},                              \
+    [PAD_STIFFNESS_FACTOR] = {"support[#].pad_stiffness_factor", RC_REAL, RC_PARAMETER,            \
+                              RC_SUPPORTS},                                                        \
+    [PAD_DAMPING_FACTOR] = {"support[#].pad_damping_factor", RC_REAL, RC_PARAMETER, RC_SUPPORTS},  \
+    [BALLAST_STIFFNESS_FACTOR] = {"support[#].ballast_stiffness_factor", RC_REAL, RC_PARAMETER,    \
+                                  RC_SUPPORTS},                                                    \
+    [BALLAST_DAMPING_FACTOR] = {"support[#].ballast_damping_factor", RC_REAL, RC_PARAMETER,        \
+                                RC_SUPPORTS},                                                      \
+    [SUPPORT_GAP] = {"support[#].gap", RC_REAL, RC_PARAMETER, RC_SUPPORTS},                        \
+    [FASTENED] = {"support[#].fastened", RC_BOOLEAN, RC_PARAMETER, RC_SUPPORTS},                   \
     [GAUGE_POSITION] = {"gauge[#].position", RC_REAL, RC_PARAMETER, RC_GAUGES}
 
 /* Outputs of every track, in the order of rc_observed. */
@@ -68,6 +84,9 @@ enum {
 
 /* Reads the basis and says how many wheels, gauges and supports there are. */
 rc_status rc_open_track(rc_model *model, rc_track *track);
+
+/* Makes the laws of ballast and pads from the parameters. */
+rc_status rc_read_laws(rc_model *model, rc_track *track);
 
 /* Reads the parameters and claims what they ask for. */
 rc_status rc_prepare_track(rc_model *model, rc_track *track);

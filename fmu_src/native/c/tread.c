@@ -21,7 +21,8 @@ static int check(const rc_table *table, char *message, size_t room)
 int rc_make_tread(rc_tread *tread, const char *path, double position, double radius, char *message,
                   size_t room)
 {
-    static const rc_table_kind kind = {"out-of-roundness", "angle [rad]", "drop [m]", 4};
+    static const rc_table_kind kind = {"out-of-roundness", "angle [rad]", "drop [m]", 4,
+                                       2};
     rc_table table;
     if (!rc_read_table(&table, path, &kind, message, room))
         return 0;

@@ -36,8 +36,8 @@ static void yield_statically(const rc_track *track, const rc_track_state *state,
         }
         rc_add_combination(out, rows, loads, 4, size);
     }
-    for (size_t s = 0; s < basis->supports; ++s) {
-        const double *row = rc_flexibility(basis, rc_ballast(basis, s));
+    for (size_t s = 0; s < rc_increments(&track->laws); ++s) {
+        const double *row = rc_flexibility(basis, rc_component(basis, s));
         const double load = -state->increment[s];
         if (load != 0.0)
             rc_add_combination(out, &row, &load, 1, size);
@@ -92,8 +92,13 @@ void rc_shift_field(rc_track *track, rc_track_state *state, ptrdiff_t bays)
             const size_t end = (side == 0 ? 0 : 2 * (basis->nodes - 1)) + k;
             at.displacement[end] = at.velocity[end] = 0.0;
         }
-    shift(state->increment, basis->supports, bays);
-    shift(state->increment_rate, basis->supports, bays);
+    double *const values[] = {state->increment, state->increment_rate};
+    for (size_t k = 0; k < 2; ++k) /* of ballast, then of pads */
+        for (size_t kind = 0; kind < 2; ++kind)
+            shift(values[k] + kind * basis->supports, basis->supports, bays);
+    shift(state->branch_force, basis->supports, bays);
+    shift(state->compression, basis->supports, bays);
+    shift(state->known, basis->supports, bays);
 }
 
 /* Mass times displacements and velocities, and damping times displacements. */

@@ -1,0 +1,168 @@
+/* The laws of ballast and pads from the parameters of a track. */
+#include <math.h>
+#include <string.h>
+
+#include "table_file.h"
+#include "track_setup.h"
+
+static int is_csv(const char *text)
+{
+    const size_t length = strlen(text);
+    if (length < 4)
+        return 0;
+    const char *end = text + length - 4;
+    return end[0] == '.' && (end[1] | 32) == 'c' && (end[2] | 32) == 's' && (end[3] | 32) == 'v';
+}
+
+static int all_are(const double *values, size_t count, double nominal)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (values[i] != nominal)
+            return 0;
+    return 1;
+}
+
+/* Refuses factors and gaps that are no numbers of at least 0. */
+static rc_status check_supports(rc_model *model, size_t supports)
+{
+    static const size_t groups[] = {PAD_STIFFNESS_FACTOR, PAD_DAMPING_FACTOR,
+                                    BALLAST_STIFFNESS_FACTOR, BALLAST_DAMPING_FACTOR, SUPPORT_GAP};
+    for (size_t g = 0; g < sizeof groups / sizeof groups[0]; ++g)
+        for (size_t s = 0; s < supports; ++s) {
+            const double value = rc_values(model, groups[g])[s];
+            if (!(isfinite(value) && value >= 0.0))
+                return rc_fail(model, RC_ERROR, "track: %s = %g of support %zu must be a finite "
+                                                "number, at least 0",
+                               strchr(model->groups[groups[g]].name, '.') + 1, value, s + 1);
+        }
+    return RC_OK;
+}
+
+static rc_status read_bed(rc_model *model, rc_laws *laws, const char *kind)
+{
+    rc_characteristic *bed = &laws->bed;
+    *bed = (rc_characteristic){.kind = RC_LINEAR,
+                               .stiffness = laws->ballast_stiffness,
+                               .alpha = laws->plain.alpha,
+                               .beta = laws->plain.beta,
+                               .delta = laws->plain.delta,
+                               .slope = *rc_values(model, BALLAST_SLOPE)};
+    if (is_csv(kind))
+        return rc_read_characteristic(bed, "ballast", kind, model->message, RC_MESSAGE_SIZE)
+                   ? RC_OK
+                   : RC_ERROR;
+    if (strcmp(kind, "state_dependent") == 0)
+        bed->kind = RC_POLYNOMIAL;
+    else if (strcmp(kind, "hyperbolic") == 0) {
+        bed->kind = RC_HYPERBOLIC;
+        if (!(isfinite(bed->slope) && bed->slope > 0.0))
+            return rc_fail(model, RC_ERROR, "ballast: slope = %g 1/m must be a finite number above "
+                                            "0; 2e3 is measured", bed->slope);
+    }
+    return RC_OK;
+}
+
+static rc_status read_ballast(rc_model *model, rc_laws *laws)
+{
+    const char *kind = rc_text(model, BALLAST);
+    const int polynomial = strcmp(kind, "state_dependent") == 0;
+    const int linear = strcmp(kind, "linear") == 0;
+    if (!polynomial && !linear && strcmp(kind, "hyperbolic") != 0 && !is_csv(kind))
+        return rc_fail(model, RC_ERROR, "track: ballast is '%s'; it must be 'state_dependent', "
+                                        "'linear', 'hyperbolic' or a .csv file", kind);
+    laws->tangent_damping = *rc_values(model, BALLAST_TANGENT_DAMPING) != 0.0;
+    laws->pulls = *rc_values(model, BALLAST_PULLS) != 0.0;
+    laws->plain = (rc_ballast_law){.alpha = *rc_values(model, BALLAST_ALPHA),
+                                   .beta = *rc_values(model, BALLAST_BETA),
+                                   .delta = *rc_values(model, BALLAST_DELTA),
+                                   .tau = laws->ballast_damping / laws->ballast_stiffness};
+    const rc_ballast_law *law = &laws->plain;
+    if (polynomial && !(isfinite(law->alpha) && isfinite(law->beta) && isfinite(law->delta)))
+        return rc_fail(model, RC_ERROR, "ballast: alpha = %g, beta = %g, delta = %g must be finite "
+                                        "numbers", law->alpha, law->beta, law->delta);
+    const int uniform = all_are(laws->ballast_stiffness_factor, laws->supports, 1.0) &&
+                        all_are(laws->ballast_damping_factor, laws->supports, 1.0) &&
+                        all_are(laws->gap, laws->supports, 0.0);
+    laws->ballast = !(uniform && laws->pulls)              ? RC_TOTAL
+                    : linear                               ? RC_NO_INCREMENT
+                    : polynomial && !laws->tangent_damping ? RC_PLAIN
+                                                           : RC_TOTAL;
+    return laws->ballast == RC_TOTAL ? read_bed(model, laws, kind) : RC_OK;
+}
+
+static rc_status read_pad_table(rc_model *model, rc_laws *laws, const char *path)
+{
+    static const rc_table_kind kind = {"pad", "displacement [m] or preload [N]", "load [N]", 3, 4};
+    rc_table table;
+    if (!rc_read_table(&table, path, &kind, model->message, RC_MESSAGE_SIZE))
+        return RC_ERROR;
+    const double *const columns[4] = {table.x, table.y, table.third, table.fourth};
+    laws->pad = table.columns == 4 ? RC_VISCOELASTIC : RC_TOTAL;
+    const int made = laws->pad == RC_TOTAL
+                         ? rc_make_characteristic(&laws->spring, "pad", table.x, table.y,
+                                                  table.rows, model->message, RC_MESSAGE_SIZE)
+                         : rc_make_preloaded_pad(&laws->viscoelastic, columns, table.rows,
+                                                 *rc_values(model, CLIP_PRELOAD), model->message,
+                                                 RC_MESSAGE_SIZE);
+    rc_free_table(&table);
+    return made ? RC_OK : RC_ERROR;
+}
+
+static rc_status read_pads(rc_model *model, rc_laws *laws)
+{
+    const char *path = rc_text(model, PAD);
+    const int uniform = all_are(laws->pad_stiffness_factor, laws->supports, 1.0) &&
+                        all_are(laws->pad_damping_factor, laws->supports, 1.0) &&
+                        all_are(laws->fastened, laws->supports, 1.0);
+    laws->spring =
+        (rc_characteristic){.kind = RC_LINEAR, .stiffness = laws->pad_stiffness};
+    laws->pad = uniform ? RC_NO_INCREMENT : RC_TOTAL;
+    if (strcmp(path, "linear") == 0)
+        return RC_OK;
+    if (is_csv(path))
+        return read_pad_table(model, laws, path);
+    return rc_fail(model, RC_ERROR, "track: pad is '%s'; it must be 'linear' or a .csv file", path);
+}
+
+/* Refuses what increments cannot make of a track. */
+static rc_status check_track(rc_model *model, const rc_track *track)
+{
+    const rc_laws *laws = &track->laws;
+    const int beds_alike = all_are(laws->ballast_stiffness_factor, laws->supports, 1.0) &&
+                           all_are(laws->ballast_damping_factor, laws->supports, 1.0) &&
+                           all_are(laws->gap, laws->supports, 0.0);
+    const int pads_alike = all_are(laws->pad_stiffness_factor, laws->supports, 1.0) &&
+                           all_are(laws->pad_damping_factor, laws->supports, 1.0) &&
+                           all_are(laws->fastened, laws->supports, 1.0);
+    if (*rc_values(model, ENDLESS) != 0.0 && !(beds_alike && pads_alike))
+        return rc_fail(model, RC_ERROR, "track: endless is true, but its supports differ; leave "
+                                        "one of the two out");
+    if (track->basis.sleeper_shape != NULL && !(beds_alike && laws->pulls))
+        return rc_fail(model, RC_ERROR, "track: sleepers bend, but their ballast differs or does "
+                                        "not pull; leave one of the two out");
+    return RC_OK;
+}
+
+rc_status rc_read_laws(rc_model *model, rc_track *track)
+{
+    const rc_basis *basis = &track->basis;
+    rc_laws *laws = &track->laws;
+    rc_free_laws(laws);
+    *laws = (rc_laws){.supports = basis->supports,
+                      .ballast_stiffness = basis->ballast_stiffness,
+                      .ballast_damping = basis->ballast_damping,
+                      .pad_stiffness = basis->pad_stiffness,
+                      .pad_damping = basis->pad_damping,
+                      .pad_stiffness_factor = rc_values(model, PAD_STIFFNESS_FACTOR),
+                      .pad_damping_factor = rc_values(model, PAD_DAMPING_FACTOR),
+                      .ballast_stiffness_factor = rc_values(model, BALLAST_STIFFNESS_FACTOR),
+                      .ballast_damping_factor = rc_values(model, BALLAST_DAMPING_FACTOR),
+                      .gap = rc_values(model, SUPPORT_GAP),
+                      .fastened = rc_values(model, FASTENED)};
+    if (check_supports(model, basis->supports) != RC_OK || read_ballast(model, laws) != RC_OK ||
+        read_pads(model, laws) != RC_OK) {
+        rc_free_laws(laws);
+        return RC_ERROR;
+    }
+    return check_track(model, track);
+}

@@ -1,0 +1,183 @@
+"""Laws of pads and ballast from the parameters of a track FMU; tables are read from their files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from track_fmu.ballast import PolynomialBallast
+from track_fmu.characteristics import (
+    Characteristic,
+    HyperbolicCharacteristic,
+    LinearCharacteristic,
+    PolynomialCharacteristic,
+    TableCharacteristic,
+)
+from track_fmu.component_law import ComponentLaw
+from track_fmu.pads import TotalPad
+from track_fmu.parameters import TrackParameters
+from track_fmu.preloaded_pad import PreloadedPad
+from track_fmu.support_factors import SupportFactors
+from track_fmu.total_ballast import TotalBallast
+from track_fmu.viscoelastic_pads import ViscoelasticPads
+
+from .tables import read_table
+
+SUPPORT_PARAMETERS = (
+    ("pad_stiffness_factor", 1.0, "1", "Factor on the stiffness of the rail pad of support {}"),
+    ("pad_damping_factor", 1.0, "1", "Factor on the damping of the rail pad of support {}"),
+    ("ballast_stiffness_factor", 1.0, "1", "Factor on the ballast stiffness under support {}"),
+    ("ballast_damping_factor", 1.0, "1", "Factor on the ballast damping under support {}"),
+    ("gap", 0.0, "m", "Gap between the unloaded sleeper of support {} and its ballast"),
+    ("fastened", True, "", "Whether the rail is fastened on support {}; false: it can lift off"),
+)
+"""Name, start value, unit and description of what every support has of its own."""
+
+CHARACTERISTIC = ("displacement", "load")
+PRELOADED = ("preload", "static_stiffness", "branch_stiffness", "branch_damping")
+
+
+def make_laws(
+    track: TrackParameters, parameters: Mapping[str, Any]
+) -> tuple[ComponentLaw | None, ComponentLaw | None]:
+    """Laws of the increments of ballast and pads; None is linear and the same at every support.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is wrong or a table cannot be used.
+    """
+    factors = support_factors(track.supports, parameters)
+    if parameters.get("endless", False) and (factors.pads_differ or factors.ballast_differs):
+        raise ValueError(
+            "track: endless is true, but its supports differ; leave one of the two out"
+        )
+    if track.sleeper != "rigid" and (factors.ballast_differs or not parameters["ballast_pulls"]):
+        raise ValueError(
+            "track: sleepers bend, but their ballast differs or does not pull; leave one of the "
+            "two out"
+        )
+    return _ballast_law(track, parameters, factors), _pad_law(track, parameters, factors)
+
+
+def support_factors(supports: int, parameters: Mapping[str, Any]) -> SupportFactors:
+    """What the supports have of their own; nominal where nothing is given."""
+    return SupportFactors(
+        **{
+            name.removesuffix("_factor"): np.array(
+                [
+                    float(parameters.get(f"support[{i}].{name}", start))
+                    for i in range(1, supports + 1)
+                ]
+            )
+            for name, start, _, _ in SUPPORT_PARAMETERS
+        }
+    )
+
+
+def _ballast_law(
+    track: TrackParameters, parameters: Mapping[str, Any], factors: SupportFactors
+) -> ComponentLaw | None:
+    kind, pulls = parameters["ballast"], bool(parameters["ballast_pulls"])
+    coefficients = {name: parameters[f"ballast_{name}"] for name in ("alpha", "beta", "delta")}
+    tangent = bool(parameters["ballast_tangent_damping"])
+    if pulls and not factors.ballast_differs:
+        if kind == "linear":
+            return None
+        if kind == "state_dependent" and not tangent:
+            tau = track.ballast_damping / track.ballast_stiffness
+            return PolynomialBallast(**coefficients, tau=tau)
+    characteristic: Characteristic
+    if kind == "linear":
+        characteristic = LinearCharacteristic()
+    elif kind == "state_dependent":
+        characteristic = PolynomialCharacteristic(**coefficients)
+    elif kind == "hyperbolic":
+        characteristic = HyperbolicCharacteristic(
+            stiffness=track.ballast_stiffness, slope=parameters["ballast_slope"]
+        )
+    elif kind.lower().endswith(".csv"):
+        characteristic = table_characteristic(
+            "ballast", kind, read_table(kind, CHARACTERISTIC), track.ballast_stiffness
+        )
+    else:
+        raise ValueError(
+            f"track: ballast is {kind!r}; it must be 'state_dependent', 'linear', 'hyperbolic' or "
+            "a .csv file"
+        )
+    return TotalBallast(
+        characteristic=characteristic,
+        linear_stiffness=track.ballast_stiffness,
+        linear_damping=track.ballast_damping,
+        factors=factors,
+        tangent_damping=tangent,
+        pulls=pulls,
+    )
+
+
+def _pad_law(
+    track: TrackParameters, parameters: Mapping[str, Any], factors: SupportFactors
+) -> ComponentLaw | None:
+    path = parameters["pad"]
+    if path == "linear" and not factors.pads_differ:
+        return None
+    common: dict[str, Any] = {
+        "linear_stiffness": track.pad_stiffness,
+        "linear_damping": track.pad_damping,
+        "factors": factors,
+    }
+    if path == "linear":
+        return TotalPad(characteristic=LinearCharacteristic(), **common)
+    if not path.lower().endswith(".csv"):
+        raise ValueError(f"track: pad is {path!r}; it must be 'linear' or a .csv file")
+    columns = read_pad(path)
+    if len(columns) == len(CHARACTERISTIC):
+        table = table_characteristic("pad", path, columns, track.pad_stiffness)
+        return TotalPad(characteristic=table, **common)
+    pad = preloaded_pad(path, columns, parameters["clip_preload"])
+    return ViscoelasticPads(pad=pad, **common)
+
+
+def preloaded_pad(path: str, columns: Mapping[str, Any], clip_preload: float) -> PreloadedPad:
+    """Pad whose parameters depend on its preload, from the columns of a table.
+
+    Raises
+    ------
+    ValueError
+        If there is no such pad.
+    """
+    try:
+        return PreloadedPad(**columns, clip_preload=clip_preload)
+    except ValueError as error:
+        raise ValueError(f"table {path}: {error}") from error
+
+
+def read_pad(path: str) -> dict[str, Any]:
+    """Columns of a pad's table, by the names that their number gives them."""
+    columns = read_table(path, PRELOADED[:2], optional=PRELOADED[2:])
+    if len(columns) == len(CHARACTERISTIC):
+        return dict(zip(CHARACTERISTIC, columns.values(), strict=True))
+    if len(columns) != len(PRELOADED):
+        raise ValueError(
+            f"table {path}: has {len(columns)} columns, but a pad has {len(CHARACTERISTIC)} "
+            f"({', '.join(CHARACTERISTIC)}) or {len(PRELOADED)} ({', '.join(PRELOADED)})"
+        )
+    return columns
+
+
+def table_characteristic(
+    what: str, path: str, columns: Mapping[str, Any], stiffness: float
+) -> TableCharacteristic:
+    """Characteristic through the rows of a table.
+
+    Raises
+    ------
+    ValueError
+        If it is no rising curve through the origin.
+    """
+    try:
+        return TableCharacteristic(columns["displacement"], columns["load"], stiffness=stiffness)
+    except ValueError as error:
+        raise ValueError(f"{what}, table {path}: {error}") from error

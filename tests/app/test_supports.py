@@ -1,0 +1,142 @@
+"""What a scenario says of its supports, and of their pads."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from railcosim.errors import InputError
+from railcosim.input_tables import check_laws
+from railcosim.pad_curves import pad_loops
+from railcosim.scenario_file import read_scenario
+from railcosim.support_values import random_factors, support_properties, support_values
+from railcosim.track_data import require_paper_laws
+from railcosim.variation import Variation
+
+PAD = Path(__file__).resolve().parents[2] / "examples" / "pad.csv"
+
+
+def test_a_uniform_track_sets_no_parameter():
+    assert support_values(read_scenario()) == {}
+
+
+def test_tables_and_lists_are_multiplied_and_merged(tmp_path):
+    table = tmp_path / "supports.csv"
+    table.write_text("position;pad_stiffness_factor;gap\n# comment\n6.5;0.5;0\n7.2;2;1e-3\n")
+    scenario = read_scenario(
+        None,
+        [
+            f"track.supports={table}",
+            "variation.hanging_sleepers=3-4",
+            "variation.hanging_gap=2e-3",
+            "variation.missing_fastenings=10",
+            "variation.transition_begin=31",
+            "variation.transition_factor=3",
+        ],
+    )
+    assert support_values(scenario) == {
+        "support[10].pad_stiffness_factor": 0.5,
+        "support[11].pad_stiffness_factor": 2.0,
+        "support[3].gap": 2e-3,
+        "support[4].gap": 2e-3,
+        "support[11].gap": 1e-3,
+        "support[10].fastened": False,
+        **{
+            f"support[{i}].ballast_{name}_factor": 3.0
+            for i in (48, 49)
+            for name in ("stiffness", "damping")
+        },
+    }
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("", "is empty"),
+        ("number,colour\n1,2\n", "column 'colour' is unknown"),
+        ("gap\n1e-3\n", "must have one of the columns number and position"),
+        ("number,gap\n1,-1\n", "line 2: gap is '-1', not a number of at least 0"),
+        ("number,gap\n50,0\n", "names support 50 but the track has 49"),
+        ("number,gap\n1,0\n1,0\n", "line 3: support 1 has a row already"),
+        ("number,gap\n1.5,0\n", "number is 1.5, not a whole number"),
+        ("number,gap\n1\n", "has 1 values, not 2"),
+    ],
+)
+def test_wrong_tables_are_refused(tmp_path, text, sentence):
+    table = tmp_path / "supports.csv"
+    table.write_text(text)
+    with pytest.raises(InputError, match=sentence):
+        check_laws(read_scenario(None, [f"track.supports={table}"]))
+
+
+@pytest.mark.parametrize(
+    ("override", "sentence"),
+    [
+        ("variation.missing_pads=50", "names support 50 but the track has 49"),
+        ("variation.missing_pads=3-1", "whole numbers from 1 on"),
+        ("variation.missing_pads=a", "whole numbers from 1 on"),
+        ("track.pad=rubber", "one of linear or a FILE.csv"),
+    ],
+)
+def test_wrong_keys_are_refused(override, sentence):
+    with pytest.raises(InputError, match=sentence):
+        read_scenario(None, [override])
+
+
+def test_random_factors_have_the_deviation_and_the_correlation_asked_for():
+    """Over 40 000 supports a correlation is known to about 1 %."""
+    variation = Variation(seed=3, correlation_length=2.0)
+    positions = 0.65 * np.arange(1, 40_001)
+    logarithm = np.log(random_factors(variation, positions, 0.4, 0))
+    assert logarithm.std() == pytest.approx(0.4, rel=0.03)
+    for lag in (1, 3, 6):
+        found = np.corrcoef(logarithm[lag:], logarithm[:-lag])[0, 1]
+        assert found == pytest.approx(np.exp(-0.65 * lag / 2.0), abs=0.04)
+    again = random_factors(variation, positions, 0.4, 0)
+    assert np.array_equal(np.log(again), logarithm)
+    other = np.log(random_factors(variation, positions, 0.4, 1))
+    assert abs(np.corrcoef(logarithm, other)[0, 1]) < 0.04
+
+
+def test_all_seeds_leave_the_nominal_track_where_nothing_deviates():
+    own = support_properties(read_scenario(None, ["variation.seed=7"]))
+    assert all((values == (0.0 if name == "gap" else 1.0)).all() for name, values in own.items())
+
+
+def test_what_knows_the_paper_s_laws_only_says_so():
+    require_paper_laws(read_scenario(), "a receptance")
+    with pytest.raises(InputError, match=r"a receptance knows .* leave track.ballast out"):
+        require_paper_laws(read_scenario(None, ["track.ballast=hyperbolic"]), "a receptance")
+    with pytest.raises(InputError, match=r"leave \[variation\] out"):
+        require_paper_laws(read_scenario(None, ["variation.missing_pads=3"]), "a receptance")
+
+
+def test_small_loops_have_the_stiffness_of_the_three_parameters():
+    """Storage and loss of the standard linear solid; a loop of 5 % of the load sees other ones."""
+    track = read_scenario(None, [f"track.pad={PAD}"]).track
+    for loop, k0 in zip(pad_loops(track, 100.0), (20e6, 26e6, 33e6, 50e6, 70e6), strict=True):
+        relaxed = 2j * np.pi * 100.0 * 0.01
+        expected = k0 * (1.0 + 3.0 * relaxed / (1.0 + relaxed))
+        assert loop.static_stiffness == pytest.approx(k0, rel=1e-3)
+        assert loop.dynamic_stiffness == pytest.approx(abs(expected), rel=0.02)
+        assert loop.loss_factor == pytest.approx(expected.imag / expected.real, rel=0.02)
+        assert loop.load[0] == pytest.approx(loop.load[-1], rel=1e-4)
+
+
+def test_the_command_prints_numbers_and_draws_the_pad(tmp_path):
+    plot = tmp_path / "pad.png"
+    command = [sys.executable, "-m", "railcosim", "pad", "--set", f"track.pad={PAD}", "--json"]
+    answer = subprocess.run(
+        [*command, "--plot", str(plot)], check=True, capture_output=True, text=True
+    )
+    numbers = json.loads(answer.stdout)
+    assert [row["preload"] for row in numbers["preloads"]] == [20e3, 30e3, 40e3, 60e3, 80e3]
+    assert plot.stat().st_size > 1e4
+    refused = subprocess.run(
+        [sys.executable, "-m", "railcosim", "pad"], capture_output=True, text=True, check=False
+    )
+    assert refused.returncode == 2
+    assert "track.pad is linear, which has no loop" in refused.stderr
