@@ -161,6 +161,7 @@ def test_a_worker_killed_in_the_middle_of_a_case_loses_nothing(cheap, undisturbe
             parse_study(cheap + STUDY), store=tmp_path / "store", client=client, report=kill_once
         )
         assert [*client.run(os.getpid).values()] != killed
+    assert [*result["failure"].to_numpy().ravel()] == [""] * CASES
     write_dataset(result, tmp_path / "study.nc")
     assert (tmp_path / "study.nc").read_bytes() == undisturbed
 
