@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from .load_displacement import SecantLaw
     from .scenario import Scenario
-    from .sections import Track
+    from .track_section import Track
 
 SAMPLES = 201
 """Displacements at which the curves are sampled."""

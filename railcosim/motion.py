@@ -14,7 +14,7 @@ from .input_tables import read_as
 if TYPE_CHECKING:
     from vehicle_fmu.speed import SpeedLaw
 
-    from .sections import Vehicle
+    from .vehicle_section import Vehicle
 
 
 def speed_law(vehicle: Vehicle) -> SpeedLaw:

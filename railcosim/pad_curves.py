@@ -17,7 +17,7 @@ from .errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .sections import Track
+    from .track_section import Track
 
 POINTS = 200
 """Points of a loop."""

@@ -8,9 +8,11 @@ from dataclasses import dataclass, field, replace
 from .errors import InputError
 from .master_section import Master
 from .rail_sections import RailSection
-from .sections import DEFAULT_SPEED_KMH, Flat, Run, Surface, Track, Vehicle
+from .sections import Flat, Run, Surface
 from .suspension_section import Suspension, check_bodies
+from .track_section import Track
 from .variation import Variation
+from .vehicle_section import DEFAULT_SPEED_KMH, Vehicle
 from .wheel_sections import WheelSection
 
 BEHIND_MIDSPAN = 0.025

@@ -15,11 +15,13 @@ from .fields import absolute_file
 from .master_section import Master
 from .presets import PRESETS
 from .scenario import Scenario
-from .sections import Flat, Run, Surface, Track, Vehicle
+from .sections import Flat, Run, Surface
 from .suspension_section import Suspension
 from .table_lists import TableList, numbered
 from .toml_text import parse_toml, read_text
+from .track_section import Track
 from .variation import Variation
+from .vehicle_section import Vehicle
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, TypeAlias
 from fmu_src.native.models import TRACK_CONSTANTS
 
 from .motion import initial_speed
-from .sections import Track
 from .support_values import support_values
 from .surface_files import files_of
 from .suspension_section import Suspension
+from .track_section import Track
 
 if TYPE_CHECKING:
     from collections.abc import Collection

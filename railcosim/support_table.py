@@ -12,7 +12,7 @@ from .errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from .sections import Track
+    from .track_section import Track
 
 PLACES = ("number", "position")
 """Columns that say which support a row is of: counted from 1, or the nearest to a place [m]."""

@@ -19,7 +19,7 @@ from .errors import InputError
 from .fields import Number, check_fields
 
 if TYPE_CHECKING:
-    from .sections import Vehicle
+    from .vehicle_section import Vehicle
 
 BODIES = BodyParameters()
 

@@ -9,7 +9,7 @@ from track_fmu.ballast import PolynomialBallast
 from track_fmu.parameters import TrackParameters
 
 from .errors import InputError
-from .sections import Track
+from .track_section import Track
 from .variation import Variation
 
 if TYPE_CHECKING:

@@ -27,7 +27,7 @@ from .rail_sections import (
     Joint,
     MeasuredRail,
 )
-from .sections import RAIL_RADIUS
+from .vehicle_section import RAIL_RADIUS
 
 if TYPE_CHECKING:
     from collections.abc import Callable

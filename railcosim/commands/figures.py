@@ -34,9 +34,9 @@ from ..receptance.study import ReceptanceStudy, midspan
 from ..scenario import Scenario
 from ..scenario_file import read_scenario
 from ..secant_data import read_secant_data
-from ..sections import DEFAULT_SPEED_KMH
 from ..sweep import Study, check_study, run_study
 from ..sweep.progress import sweep_bar
+from ..vehicle_section import DEFAULT_SPEED_KMH
 from .endings import exit_codes, say
 from .options import FmuKind, Json, Overrides, Quiet
 from .stdout import stdout_for_results

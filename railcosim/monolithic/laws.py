@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..sections import Track
+    from ..track_section import Track
 
 
 class Tangent(NamedTuple):

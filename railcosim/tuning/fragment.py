@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..output import replacing
 from ..scenario_file import section_to_toml
-from ..sections import Track
+from ..track_section import Track
 
 if TYPE_CHECKING:
     from collections.abc import Collection

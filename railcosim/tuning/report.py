@@ -13,7 +13,7 @@ from ..receptance.measured import DECIBEL
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from ..sections import Track
+    from ..track_section import Track
     from .ballast import TunedBallast
     from .estimate import Estimate
     from .receptance import TunedTrack

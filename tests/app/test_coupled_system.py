@@ -14,9 +14,11 @@ from railcosim.dataset import count
 from railcosim.master_section import Master
 from railcosim.motion import speed_law, travel_time
 from railcosim.scenario import Scenario
-from railcosim.sections import Flat, Run, Track, Vehicle
+from railcosim.sections import Flat, Run
 from railcosim.signals import SIGNALS
 from railcosim.start_values import track_values, vehicle_values
+from railcosim.track_section import Track
+from railcosim.vehicle_section import Vehicle
 from vehicle_fmu.speed import SpeedTable
 
 UNITS = {"m": "m", "N": "N", "m s-1": "m/s", "N m": "N.m", "1": None}

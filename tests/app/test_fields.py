@@ -3,7 +3,9 @@ import math
 import pytest
 
 from railcosim.errors import InputError
-from railcosim.sections import Flat, Run, Track, Vehicle
+from railcosim.sections import Flat, Run
+from railcosim.track_section import Track
+from railcosim.vehicle_section import Vehicle
 
 
 @pytest.mark.parametrize(

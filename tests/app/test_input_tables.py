@@ -4,7 +4,8 @@ from railcosim.errors import InputError
 from railcosim.input_tables import check_profiles
 from railcosim.motion import initial_speed, speed_law, travel_time
 from railcosim.scenario import Scenario
-from railcosim.sections import Flat, Run, Vehicle
+from railcosim.sections import Flat, Run
+from railcosim.vehicle_section import Vehicle
 
 
 @pytest.fixture

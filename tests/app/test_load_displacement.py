@@ -17,8 +17,8 @@ from railcosim.load_displacement import (
 )
 from railcosim.scenario import Scenario
 from railcosim.secant_data import SecantData
-from railcosim.sections import Track
 from railcosim.track_data import ballast_law
+from railcosim.track_section import Track
 
 LAW = SecantLaw()
 PAPER = ballast_polynomial(Scenario().track)

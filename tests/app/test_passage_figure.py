@@ -3,7 +3,9 @@ import pytest
 
 from railcosim.figures.passage import SPAN, describe, draw_passage
 from railcosim.scenario import Scenario
-from railcosim.sections import Flat, Track, Vehicle
+from railcosim.sections import Flat
+from railcosim.track_section import Track
+from railcosim.vehicle_section import Vehicle
 
 DISTANCE = np.linspace(-3.9, 2.6, 651)
 

@@ -9,10 +9,12 @@ from railcosim.errors import InputError
 from railcosim.presets import PRESETS
 from railcosim.scenario import Scenario
 from railcosim.scenario_file import from_toml, read_scenario, to_toml
-from railcosim.sections import GRAVITY, Flat, Run, Track, Vehicle
+from railcosim.sections import Flat, Run
 from railcosim.signals import SIGNALS, signals_of
 from railcosim.start_values import vehicle_values
 from railcosim.suspension_section import Suspension
+from railcosim.track_section import Track
+from railcosim.vehicle_section import GRAVITY, Vehicle
 from vehicle_fmu.speed import ConstantSpeed
 
 LONG = ("track.bays=80", "flat.position=40")

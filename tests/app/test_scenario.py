@@ -3,7 +3,9 @@ import pytest
 from railcosim.errors import InputError
 from railcosim.master_section import Master
 from railcosim.scenario import Scenario
-from railcosim.sections import Flat, Run, Track, Vehicle
+from railcosim.sections import Flat, Run
+from railcosim.track_section import Track
+from railcosim.vehicle_section import Vehicle
 
 
 def test_defaults_are_the_demonstration_example_of_nielsen_and_oscarsson():

@@ -6,7 +6,9 @@ from railcosim.errors import InputError
 from railcosim.master_section import Master
 from railcosim.scenario import Scenario
 from railcosim.scenario_file import SECTIONS, from_toml, read_scenario, to_toml
-from railcosim.sections import Flat, Run, Track, Vehicle
+from railcosim.sections import Flat, Run
+from railcosim.track_section import Track
+from railcosim.vehicle_section import Vehicle
 
 
 @pytest.fixture

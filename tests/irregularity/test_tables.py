@@ -6,7 +6,7 @@ from railcosim.errors import InputError
 from railcosim.rail_sections import Corrugation, FraTrack, Iso3095Roughness, Joint, MeasuredRail
 from railcosim.scenario import Scenario
 from railcosim.scenario_file import from_toml, read_scenario, to_toml
-from railcosim.sections import Vehicle
+from railcosim.vehicle_section import Vehicle
 from railcosim.wheel_sections import MeasuredWheel, Polygon, Spall, WheelFlat
 from vehicle_fmu.hertz_coefficient import hertz_coefficient
 

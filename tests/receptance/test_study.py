@@ -11,8 +11,9 @@ from railcosim.receptance.points import Place, parse_place, track_point
 from railcosim.receptance.report import modal_deviation
 from railcosim.receptance.study import ReceptanceStudy, midspan
 from railcosim.scenario import Scenario
-from railcosim.sections import Flat, Run, Track
+from railcosim.sections import Flat, Run
 from railcosim.track_data import ballast_law, track_parameters
+from railcosim.track_section import Track
 from track_fmu.assembly import assemble
 from track_fmu.modal import compute_basis
 from track_fmu.reduction import reduce_track

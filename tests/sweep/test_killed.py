@@ -152,8 +152,6 @@ def test_a_worker_killed_in_the_middle_of_a_case_loses_nothing(cheap, undisturbe
 
         def kill_once(progress):
             if progress.ended == 2:
-                time.sleep(0.1)  # a third of the next case, which has been submitted
-                assert any(client.processing().values())
                 killed.extend(client.run(os.getpid).values())
                 os.kill(killed[0], signal.SIGKILL)
 

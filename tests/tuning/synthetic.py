@@ -5,7 +5,7 @@ import numpy as np
 from railcosim.receptance.measured import MeasuredReceptance
 from railcosim.receptance.study import ReceptanceStudy, midspan
 from railcosim.scenario import Scenario
-from railcosim.sections import Track
+from railcosim.track_section import Track
 
 TRUE = {
     "pad_stiffness": 80e6,

@@ -5,7 +5,7 @@ from railcosim.errors import InputError
 from railcosim.load_displacement import SecantLaw, equidistant_loads
 from railcosim.scenario import Scenario
 from railcosim.secant_data import SecantData, read_secant_data
-from railcosim.sections import Track
+from railcosim.track_section import Track
 from railcosim.tuning.ballast import tune_to_secant_stiffness
 
 LAW = SecantLaw()

@@ -6,7 +6,9 @@ from railcosim.evaluation.rail_shape import rail_shape
 from railcosim.passage import run_passage
 from railcosim.scenario import Scenario
 from railcosim.scenario_file import read_scenario
-from railcosim.sections import Flat, Track, Vehicle
+from railcosim.sections import Flat
+from railcosim.track_section import Track
+from railcosim.vehicle_section import Vehicle
 
 MIDSPAN = 25.5 * 0.65
 ROUNDING = 1e-14  # m: what two programs differ by in sums of millimetres

@@ -4,7 +4,8 @@ import pytest
 from railcosim.evaluation.settings import Evaluation
 from railcosim.evaluation.wheel_load_detector import wheel_load_record
 from railcosim.scenario import Scenario
-from railcosim.sections import Flat, Vehicle
+from railcosim.sections import Flat
+from railcosim.vehicle_section import Vehicle
 
 STATIC = 1e5
 SPACING = 0.65

@@ -8,7 +8,8 @@ from railcosim.evaluation.settings import Evaluation
 from railcosim.evaluation.supports import support_loads
 from railcosim.evaluation.wheels import wheel_loads
 from railcosim.scenario import Scenario
-from railcosim.sections import Track, Vehicle
+from railcosim.track_section import Track
+from railcosim.vehicle_section import Vehicle
 
 DISTANCE = np.array([-1.0, 0.0, 1.0, 2.0])
 SPEED = 10.0

@@ -5,7 +5,7 @@ import xarray as xr
 from railcosim.figures.histories import draw_histories
 from railcosim.figures.speed import MARKERS, Points, draw_over_speed, fit
 from railcosim.scenario import Scenario
-from railcosim.sections import Track
+from railcosim.track_section import Track
 
 SPEEDS = np.arange(5.0, 101.0, 5.0)
 
