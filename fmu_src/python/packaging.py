@@ -10,11 +10,10 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from importlib.metadata import distribution
 from pathlib import Path
 from types import ModuleType
 from xml.etree.ElementTree import indent, tostring
-
-import pythonfmu
 
 import track_fmu
 import vehicle_fmu
@@ -143,7 +142,7 @@ def fmu_contents(kind: str, structure: Mapping[str, int]) -> dict[str, bytes]:
     sources = _sources(recipe)
     pythonfmu_sources = {
         f"resources/pythonfmu/{path.name}": path.read_bytes()
-        for path in sorted(Path(str(pythonfmu.__file__)).parent.glob("*.py"))
+        for path in sorted(_installed_pythonfmu().glob("*.py"))
     }
     described = "".join(f"{name}={value};" for name, value in sorted(structure.items()))
     fixed = {"structure": described.encode(), "slave file": SLAVE_FILE.encode()}
@@ -191,9 +190,18 @@ def _renamed(source: bytes, models: Sequence[ModuleType], package: str) -> bytes
     return re.sub(pattern, rf"\g<1>{package}.\g<2>", source.decode(), flags=re.MULTILINE).encode()
 
 
+def _installed_pythonfmu() -> Path:
+    """Folder of the installed pythonfmu.
+
+    Where a Python FMU has run, or in a process that such a one has started, `import pythonfmu` may
+    find the copy in that FMU, which has no libraries.
+    """
+    return Path(str(distribution("pythonfmu").locate_file("pythonfmu")))
+
+
 def _libraries(identifier: str) -> dict[str, bytes]:
     """The wrapper libraries of pythonfmu."""
-    folder = Path(str(pythonfmu.__file__)).parent / "resources" / "binaries"
+    folder = _installed_pythonfmu() / "resources" / "binaries"
     return {
         f"binaries/{platform}/{identifier}{suffix}": path.read_bytes()
         for platform, suffix in LIBRARIES.items()
