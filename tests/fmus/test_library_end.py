@@ -61,5 +61,9 @@ def test_the_end_is_left_to_a_thread_that_runs_python_itself(monkeypatch):
     assert calls == []
 
 
-def test_a_slave_without_a_library_has_nothing_to_end():
+def test_a_slave_without_a_library_has_nothing_to_end(monkeypatch, tmp_path):
+    registered = []
+    monkeypatch.setattr(library_end.atexit, "register", registered.append)
     library_end.end_in_order(None)
+    library_end.end_in_order(str(tmp_path / "resources"))
+    assert registered == []
