@@ -1,12 +1,7 @@
 /* Kilometres on a track with the contacts on its side, under masses that this program moves itself.
  * Prints what an update costs, the median over stretches of 6.5 m [ns of processor time], and the
  * memory of the process after a tenth and at the end [pages]. Linux. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
-
-#include "model.h"
+#include "program.h"
 
 #define STEP 1e-4 /* s */
 #define LOAD 117720.0
@@ -15,44 +10,10 @@
 #define AXLE_BASE 1.8
 #define STRETCH 6.5 /* m */
 
-static void fail(const char *why)
-{
-    fprintf(stderr, "%s\n", why);
-    exit(1);
-}
-
-static void *read_file(const char *path, size_t *size)
-{
-    FILE *file = fopen(path, "rb");
-    if (file == NULL || fseek(file, 0, SEEK_END) != 0)
-        fail("the resource cannot be read");
-    *size = (size_t)ftell(file);
-    rewind(file);
-    void *data = malloc(*size);
-    if (data == NULL || fread(data, 1, *size, file) != *size)
-        fail("the resource cannot be read");
-    fclose(file);
-    return data;
-}
-
-static size_t find(const rc_model *model, const char *name)
-{
-    for (size_t g = 0; g < rc_group_count(model); ++g)
-        if (strcmp(rc_group_at(model, g)->name, name) == 0)
-            return g;
-    fail("a variable is missing");
-    return 0;
-}
-
 static void set(rc_model *model, const char *name, double value)
 {
     if (rc_set_group(model, find(model, name), &value) != RC_OK)
         fail(rc_message(model));
-}
-
-static double now(void)
-{
-    return 1e9 / CLOCKS_PER_SEC * (double)clock();
 }
 
 static long memory(void)
@@ -131,7 +92,7 @@ int main(int count, char **arguments)
     size_t size;
     if (count != 6)
         fail("give the resource, a rail irregularity, whether endless, speed [m/s], distance [m]");
-    void *data = read_file(arguments[1], &size);
+    void *data = read_resource(arguments[1], &size);
     run of = {.model = rc_create(rc_library_class(), data, size, message), .least = LOAD};
     if (of.model == NULL)
         fail(message);

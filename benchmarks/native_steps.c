@@ -1,11 +1,7 @@
 /* Times of a native track, with the contacts on its side or without: one update, an update repeated
  * with other forces or displacements, one with a step size never seen before, saving and restoring.
  * Prints nanoseconds, one figure a line. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
-
-#include "model.h"
+#include "program.h"
 
 #define BATCHES 100u
 #define ROUNDS 200u
@@ -14,45 +10,6 @@
 #define STATIC_LOAD 117720.0
 #define HOP 1e-6 /* m */
 #define MOST_WHEELS 64
-
-/* Processor time [ns]: what others do on the machine does not count. */
-static double now(void)
-{
-    return 1e9 / CLOCKS_PER_SEC * (double)clock();
-}
-
-static void fail(const char *why)
-{
-    fprintf(stderr, "%s\n", why);
-    exit(1);
-}
-
-static void *read_resource(const char *path, size_t *size)
-{
-    FILE *file = fopen(path, "rb");
-    if (file == NULL || fseek(file, 0, SEEK_END) != 0)
-        fail("the resource cannot be read");
-    *size = (size_t)ftell(file);
-    rewind(file);
-    void *data = malloc(*size);
-    if (data == NULL || fread(data, 1, *size, file) != *size)
-        fail("the resource cannot be read");
-    fclose(file);
-    return data;
-}
-
-static size_t find(const rc_model *model, const char *name)
-{
-    for (size_t g = 0; g < rc_group_count(model); ++g) {
-        const char *a = rc_group_at(model, g)->name, *b = name;
-        while (*a != '\0' && *a == *b)
-            ++a, ++b;
-        if (*a == *b)
-            return g;
-    }
-    fail("a variable is missing");
-    return 0;
-}
 
 typedef struct {
     rc_model *model;
