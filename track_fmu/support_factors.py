@@ -85,7 +85,7 @@ class SupportFactors:
             How many.
         """
         number, known = first + np.arange(count), len(self.gap)
-        place = number % known if self.repeat else np.minimum(number, known - 1)
+        place = number % known if self.repeat else np.clip(number, 0, known - 1)
         there = (number >= 0) & (self.repeat | (number < known))
         values: dict[str, Any] = {
             name: np.where(there, getattr(self, name)[place], nominal_value(name))
