@@ -122,7 +122,7 @@ def run_passage(
             sources = fmu_sources(
                 scenario, paths, law, contact=contact, timeout=timeout, surfaces=files
             )
-            system = join(sources, scenario.vehicle.wheels, contact)
+            system = join(sources, scenario, contact)
             signals = [
                 path
                 for signal in signals_of(scenario)

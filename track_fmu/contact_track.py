@@ -16,6 +16,8 @@ from .step_parts import count_parts
 from .track_model import TrackModel
 
 LONGEST_PART = 2e-4  # s; beyond it the contact forces on straight lines resolve no strike
+INSTANT = 1e-6  # s, over which the rate of a surface is taken at the start
+SWAY = 1.0  # s, over which bodies above the wheels smooth it; about a period of car bodies
 
 
 class ContactTrack:
@@ -100,34 +102,59 @@ class ContactTrack:
         """
         return self._own.origin.copy()
 
+    @property
+    def static_velocity(self) -> FloatArray:
+        """Velocity with which each wheel follows the surface at the start [m/s], (wheels,)."""
+        return self._own.velocity.copy()
+
+    @property
+    def mean_velocity(self) -> FloatArray:
+        """The same in the mean over `SWAY`, half of it before the start [m/s], (wheels,)."""
+        return self._own.mean_velocity.copy()
+
     def observe(self) -> Observation:
         """Displacements, forces and bending moments of the track in the present state."""
         return self._track.observe()
 
-    def start(self, positions: FloatArray, displacements: FloatArray) -> None:
+    def start(
+        self,
+        positions: FloatArray,
+        displacements: FloatArray,
+        *,
+        load_change: FloatArray | float = 0.0,
+        velocity: FloatArray | float = 0.0,
+    ) -> None:
         """Set the static equilibrium under the static loads.
 
         Parameters
         ----------
         positions, displacements : (wheels,) float array
             Of the wheels [m]; the displacements are what later ones count from.
+        load_change : (wheels,) float array
+            What each wheel presses with beyond the static load [N].
+        velocity : (wheels,) float array
+            With which the vehicle starts to move each wheel [m/s].
 
         Raises
         ------
         ValueError
-            If a wheel is not on the track or a displacement is not a number.
+            If a wheel is not on the track or not pressed on it, or a value is not a number.
         RuntimeError
             If the equilibrium is not found.
         """
         _check_displacements(displacements)
-        own, loads = self._own, np.full(len(positions), self._static_load)
+        own, loads = self._own, np.full(len(positions), self._static_load) + load_change
+        velocities = np.zeros_like(positions) + velocity
+        _check_start(loads, velocities)
         self._track.start(positions, loads)
         own.compression[:] = self._law.compression(loads)
         own.origin[:] = self._track.rail_displacement + self._surface.drops(positions)
         own.origin += own.compression - displacements
         own.ahead[:] = loads
+        own.velocity[:] = self._rate(positions, INSTANT)
+        own.mean_velocity[:] = self._rate(positions, SWAY)
         own.passed[0] = 0.0
-        self._begin(np.concatenate((positions, displacements)))
+        self._begin(np.concatenate((positions, displacements)), velocities)
 
     def doubts(self, step_size: float, positions: FloatArray) -> list[str]:
         """What is doubtful about a first step of given start values, a sentence each."""
@@ -189,7 +216,8 @@ class ContactTrack:
             now = continued(own.history, own.ages, passed) if linear else given
             remember(own.history, own.ages, now, passed)
         elif not linear and not np.array_equal(given, own.history[0]):
-            self._begin(given)
+            moved = own.history[0] - own.history[1]
+            self._begin(given, moved[len(positions) :] / own.ages[0])
         try:
             for part in range(1, parts + 1):
                 share = part / parts
@@ -210,10 +238,17 @@ class ContactTrack:
         own.passed[0] = 0.0 if linear else step_size
         own.ahead[:] = np.maximum(1.5 * self.contact_force - 0.5 * force, 0.0)
 
-    def _begin(self, given: FloatArray) -> None:
-        """Continue from given positions and displacements as if nothing had been given before."""
-        rate = np.zeros_like(given)
-        rate[: len(given) // 2] = self._track.options.initial_speed
+    def _rate(self, positions: FloatArray, span: float) -> FloatArray:
+        """How fast the surface sinks under the wheels, in the mean over a span [s]: [m/s]."""
+        half = 0.5 * span * self._track.options.initial_speed
+        drops = self._surface.drops
+        rate: FloatArray = (drops(positions + half) - drops(positions - half)) / span
+        return rate
+
+    def _begin(self, given: FloatArray, velocity: FloatArray) -> None:
+        """Continue given positions and displacements, these with a velocity, from nothing else."""
+        speed = np.full_like(velocity, self._track.options.initial_speed)
+        rate = np.concatenate((speed, velocity))
         begin(self._own.history, self._own.ages, given, rate=rate, age=LONGEST_PART)
 
     def _advance(self, step_size: float, positions: FloatArray, displacements: FloatArray) -> None:
@@ -229,6 +264,21 @@ class ContactTrack:
         )
         self._track.move(operator, solution.force, solution.increment)
         own.compression[:] = solution.compression
+
+
+def _check_start(loads: FloatArray, velocities: FloatArray) -> None:
+    for number, (load, velocity) in enumerate(zip(loads, velocities, strict=True), start=1):
+        if not (math.isfinite(load) and load >= 0.0):
+            raise ValueError(
+                f"track: wheel {number} starts with a load of {float(load):.6g} N, which must be a "
+                "finite number, at least 0: begin where the rail is more even, or let the vehicle "
+                "have the contacts"
+            )
+        if not math.isfinite(velocity):
+            raise ValueError(
+                f"track: initial velocity {float(velocity)!r} m/s of wheel {number} must be a "
+                "finite number; look for the cause in the vehicle"
+            )
 
 
 def _check_displacements(displacements: FloatArray) -> None:

@@ -17,9 +17,13 @@ static const rc_group_kind KINDS[] = {
     [OFFSET] = {"wheel[#].offset", RC_REAL, RC_PARAMETER, RC_FOLLOWERS},
     RC_SUSPENSION_PARAMETERS(SUSPENSION),
     [CONTACT_FORCE] = {"wheel[#].contact_force", RC_REAL, RC_INPUT, RC_WHEELS},
+    [STATIC_DISPLACEMENT] = {"wheel[#].static_displacement", RC_REAL, RC_INPUT, RC_WHEELS},
+    [STATIC_VELOCITY] = {"wheel[#].static_velocity", RC_REAL, RC_INPUT, RC_WHEELS},
+    [MEAN_VELOCITY] = {"wheel[#].mean_velocity", RC_REAL, RC_INPUT, RC_WHEELS},
     [POSITION] = {"wheel[#].position", RC_REAL, RC_OUTPUT, RC_WHEELS},
     [DISPLACEMENT] = {"wheel[#].displacement", RC_REAL, RC_OUTPUT, RC_WHEELS},
     [VELOCITY] = {"wheel[#].velocity", RC_REAL, RC_OUTPUT, RC_WHEELS},
+    [LOAD_CHANGE] = {"wheel[#].load_change", RC_REAL, RC_OUTPUT, RC_WHEELS},
     RC_BODY_OUTPUTS(BODIES),
     [LINEAR_INPUTS] = {"linear_inputs", RC_BOOLEAN, RC_PARAMETER, RC_ONE},
 };
@@ -34,16 +38,43 @@ static rc_status check_forces(rc_model *model, rc_status otherwise)
     return RC_OK;
 }
 
+static rc_status check_standing(rc_model *model)
+{
+    static const struct {
+        size_t group;
+        const char *name, *unit;
+    } all[] = {{STATIC_DISPLACEMENT, "displacement", "m"},
+               {STATIC_VELOCITY, "velocity", "m/s"},
+               {MEAN_VELOCITY, "mean_velocity", "m/s"}};
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; ++k)
+        for (size_t i = 0; i < model->dimensions[RC_WHEELS]; ++i) {
+            const double value = rc_values(model, all[k].group)[i];
+            if (!isfinite(value))
+                return rc_fail(model, RC_ERROR, "the static %s of wheel %zu is %g %s; it must be a "
+                                                "finite number", all[k].name, i + 1, value,
+                               all[k].unit);
+        }
+    return RC_OK;
+}
+
 static rc_status start(rc_model *model)
 {
     const rc_masses *own = model->own;
     const rc_masses_state at = rc_masses_view(own, model->dynamic);
     const double *forces = rc_values(model, CONTACT_FORCE);
-    if (check_forces(model, RC_ERROR) != RC_OK)
+    if (check_forces(model, RC_ERROR) != RC_OK || check_standing(model) != RC_OK)
         return RC_ERROR;
     memset(model->dynamic, 0, model->dynamic_count * sizeof(double));
     *at.start = *at.time = model->head->time;
     memcpy(at.force, forces, own->wheels * sizeof(double));
+    memcpy(at.velocity, rc_values(model, STATIC_VELOCITY), own->wheels * sizeof(double));
+    if (own->suspension.coupled &&
+        !rc_settle_masses(own, &at, rc_values(model, STATIC_DISPLACEMENT),
+                          rc_values(model, MEAN_VELOCITY)))
+        return rc_fail(model, RC_ERROR,
+                       "the vehicle finds no static equilibrium on wheels displaced by up to %g m "
+                       "at the start; begin on a more even rail",
+                       rc_largest(own->q, own->wheels));
     return RC_OK;
 }
 
@@ -184,9 +215,13 @@ static void read_outputs(rc_model *model, size_t group, double *values)
             values[i] = own->initial_position + way - own->offsets[i];
         return;
     }
+    if (group == LOAD_CHANGE) {
+        memcpy(values, at.load_change, own->wheels * sizeof(double));
+        return;
+    }
     for (size_t i = 0; i < own->wheels; ++i) {
         const motion now = own->suspension.coupled
-                               ? (motion){at.ahead[i], at.ahead_rate[i]}
+                               ? (motion){at.ahead[i] - at.origin[i], at.ahead_rate[i]}
                                : moved(own, &at, i, *at.passed, at.slope[i]);
         values[i] = group == DISPLACEMENT ? now.displacement : now.velocity;
     }

@@ -15,11 +15,15 @@ enum {
     SURFACE,
     POSITION = SURFACE + RC_SURFACE_PARAMETER_COUNT,
     DISPLACEMENT,
+    LOAD_CHANGE,
+    INITIAL_VELOCITY,
     CONTACT_FORCE,
     CONTACT_FORCE_AHEAD,
     GAP,
     IN_CONTACT,
     STATIC_DISPLACEMENT,
+    STATIC_VELOCITY,
+    MEAN_VELOCITY,
     TRACK_OUTPUT,
     LINEAR_INPUTS = TRACK_OUTPUT + RC_TRACK_OUTPUT_COUNT
 };
@@ -32,11 +36,15 @@ static const rc_group_kind KINDS[] = {
     RC_SURFACE_PARAMETERS(SURFACE),
     [POSITION] = {"wheel[#].position", RC_REAL, RC_INPUT, RC_WHEELS},
     [DISPLACEMENT] = {"wheel[#].displacement", RC_REAL, RC_INPUT, RC_WHEELS},
+    [LOAD_CHANGE] = {"wheel[#].load_change", RC_REAL, RC_INPUT, RC_WHEELS},
+    [INITIAL_VELOCITY] = {"wheel[#].velocity", RC_REAL, RC_INPUT, RC_WHEELS},
     [CONTACT_FORCE] = {"wheel[#].contact_force", RC_REAL, RC_OUTPUT, RC_WHEELS},
     [CONTACT_FORCE_AHEAD] = {"wheel[#].contact_force_ahead", RC_REAL, RC_OUTPUT, RC_WHEELS},
     [GAP] = {"wheel[#].gap", RC_REAL, RC_OUTPUT, RC_WHEELS},
     [IN_CONTACT] = {"wheel[#].in_contact", RC_BOOLEAN, RC_OUTPUT, RC_WHEELS},
     [STATIC_DISPLACEMENT] = {"wheel[#].static_displacement", RC_REAL, RC_OUTPUT, RC_WHEELS},
+    [STATIC_VELOCITY] = {"wheel[#].static_velocity", RC_REAL, RC_OUTPUT, RC_WHEELS},
+    [MEAN_VELOCITY] = {"wheel[#].mean_velocity", RC_REAL, RC_OUTPUT, RC_WHEELS},
     RC_TRACK_OUTPUTS(TRACK_OUTPUT),
     [LINEAR_INPUTS] = {"linear_inputs", RC_BOOLEAN, RC_PARAMETER, RC_ONE},
 };
@@ -44,6 +52,8 @@ static const rc_group_kind KINDS[] = {
 #define MOST_PARTS 1e5          /* of a step; a second of work */
 #define SMALL_MOVE 1e-5         /* m; of a position, to difference a step */
 #define SMALL_DISPLACEMENT 1e-8 /* m; likewise of a displacement */
+#define INSTANT 1e-6            /* s, over which the rate of a surface is taken at the start */
+#define SWAY 1.0 /* s, over which bodies above the wheels smooth it; about a period of car bodies */
 
 static rc_status open_contact(rc_model *model)
 {
@@ -99,6 +109,34 @@ static rc_status check_inputs(rc_model *model, rc_status otherwise)
     return rc_check_wheels(model, track, given_inputs(model), otherwise);
 }
 
+/* Loads of the wheels at the start, which must not be below zero, into own->force. */
+static rc_status take_loads(rc_model *model)
+{
+    rc_track_contact *own = model->own;
+    for (size_t i = 0; i < own->track.basis.wheels; ++i) {
+        const double load = own->force[i] = own->static_load + rc_values(model, LOAD_CHANGE)[i];
+        const double velocity = rc_values(model, INITIAL_VELOCITY)[i];
+        if (!(isfinite(load) && load >= 0.0))
+            return rc_fail(model, RC_ERROR,
+                           "track: wheel %zu starts with a load of %g N, which must be a finite "
+                           "number, at least 0: begin where the rail is more even, or let the "
+                           "vehicle have the contacts", i + 1, load);
+        if (!isfinite(velocity))
+            return rc_fail(model, RC_ERROR,
+                           "track: initial velocity %g m/s of wheel %zu must be a finite number; "
+                           "look for the cause in the vehicle", velocity, i + 1);
+    }
+    return RC_OK;
+}
+
+/* How fast the surface sinks under a wheel, in the mean over a span. */
+static double rate(const rc_track_contact *own, size_t wheel, double position, double span)
+{
+    const double half = 0.5 * span * own->track.initial_speed;
+    return (rc_surface_drop(&own->surfaces, wheel, position + half) -
+            rc_surface_drop(&own->surfaces, wheel, position - half)) / span;
+}
+
 static rc_status start(rc_model *model)
 {
     rc_track_contact *own = model->own;
@@ -106,20 +144,20 @@ static rc_status start(rc_model *model)
     const rc_contact_state at = rc_view_contact(&track->basis, model->dynamic);
     rc_track_state state = rc_view_state(&track->basis, model->dynamic);
     const double *positions = given_inputs(model), *displacements = rc_values(model, DISPLACEMENT);
-    if (check_inputs(model, RC_ERROR) != RC_OK)
+    if (check_inputs(model, RC_ERROR) != RC_OK || take_loads(model) != RC_OK)
         return RC_ERROR;
-    for (size_t i = 0; i < track->basis.wheels; ++i)
-        own->force[i] = own->static_load;
     if (rc_start_track(model, track, &state, positions, own->force) != RC_OK)
         return RC_ERROR;
     for (size_t i = 0; i < track->basis.wheels; ++i) {
-        at.compression[i] = rc_hertz_compression(own->static_load, own->coefficient);
+        at.compression[i] = rc_hertz_compression(own->force[i], own->coefficient);
         at.origin[i] = state.displacement[i] + rc_surface_drop(&own->surfaces, i, positions[i]);
         at.origin[i] += at.compression[i] - displacements[i];
-        at.ahead[i] = own->static_load;
+        at.ahead[i] = own->force[i];
+        at.velocity[i] = rate(own, i, positions[i], INSTANT);
+        at.mean_velocity[i] = rate(own, i, positions[i], SWAY);
     }
     *at.passed = 0.0;
-    rc_begin_contact(own, &at, positions);
+    rc_begin_contact(own, &at, positions, rc_values(model, INITIAL_VELOCITY));
     return RC_OK;
 }
 
@@ -182,6 +220,12 @@ static void read_values(rc_track_contact *own, double *dynamic, size_t group, do
             break;
         case IN_CONTACT:
             values[i] = at.compression[i] > 0.0 ? 1.0 : 0.0;
+            break;
+        case STATIC_VELOCITY:
+            values[i] = at.velocity[i];
+            break;
+        case MEAN_VELOCITY:
+            values[i] = at.mean_velocity[i];
             break;
         default: /* STATIC_DISPLACEMENT */
             values[i] = at.origin[i];

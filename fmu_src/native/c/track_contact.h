@@ -12,6 +12,7 @@
 /* What it remembers beside the track's own state; twin of track_fmu/contact_state.py. */
 typedef struct {
     double *compression, *ahead, *origin; /* (wheels) */
+    double *velocity, *mean_velocity;     /* (wheels); of the surface at the start */
     rc_history history;                   /* of positions, then displacements, as last given */
     double *passed;                       /* s; since the newest were given */
 } rc_contact_state;
@@ -39,8 +40,9 @@ rc_contact_state rc_view_contact(const rc_basis *basis, double *dynamic);
 rc_status rc_claim_contact(rc_model *model, rc_track_contact *own);
 void rc_release_contact(rc_track_contact *own);
 
-/* Continues from given positions and displacements as if nothing had been given before. */
-void rc_begin_contact(rc_track_contact *own, const rc_contact_state *at, const double *given);
+/* Continues given positions and displacements, these with a velocity, from nothing else. */
+void rc_begin_contact(rc_track_contact *own, const rc_contact_state *at, const double *given,
+                      const double *velocity);
 
 /* Takes over positions and displacements that hold now. */
 void rc_take_contact(rc_track_contact *own, const rc_contact_state *at, const double *given);
