@@ -268,16 +268,15 @@ class ContactTrack:
 
 def _check_start(loads: FloatArray, velocities: FloatArray) -> None:
     for number, (load, velocity) in enumerate(zip(loads, velocities, strict=True), start=1):
-        if not (math.isfinite(load) and load >= 0.0):
+        if not (math.isfinite(load) and math.isfinite(velocity)):
             raise ValueError(
-                f"track: wheel {number} starts with a load of {float(load):.6g} N, which must be a "
-                "finite number, at least 0: begin where the rail is more even, or let the vehicle "
-                "have the contacts"
+                f"track: load {float(load):g} N and velocity {float(velocity):g} m/s of wheel "
+                f"{number} must be finite numbers; look for the cause in the vehicle"
             )
-        if not math.isfinite(velocity):
+        if load < 0.0:
             raise ValueError(
-                f"track: initial velocity {float(velocity)!r} m/s of wheel {number} must be a "
-                "finite number; look for the cause in the vehicle"
+                f"track: wheel {number} starts with a load of {float(load):g} N, which must be at "
+                "least 0: begin where the rail is more even, or let the vehicle have the contacts"
             )
 
 

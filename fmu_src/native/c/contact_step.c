@@ -59,8 +59,8 @@ static void begin_again(rc_track_contact *own, const rc_contact_state *at, const
     const size_t wheels = own->track.basis.wheels;
     const double *newest = at->history.newest + wheels, *second = at->history.second + wheels;
     for (size_t i = 0; i < wheels; ++i)
-        own->moved[i] = (newest[i] - second[i]) / at->history.ages[0];
-    rc_begin_contact(own, at, given, own->moved);
+        own->level[i] = (newest[i] - second[i]) / at->history.ages[0];
+    rc_begin_contact(own, at, given, own->level);
 }
 
 void rc_take_contact(rc_track_contact *own, const rc_contact_state *at, const double *given)

@@ -38,7 +38,8 @@ static rc_status check_forces(rc_model *model, rc_status otherwise)
     return RC_OK;
 }
 
-static rc_status check_standing(rc_model *model)
+/* Values that matter at the start only are numbers later on as well. */
+static rc_status check_standing(rc_model *model, rc_status otherwise)
 {
     static const struct {
         size_t group;
@@ -50,9 +51,9 @@ static rc_status check_standing(rc_model *model)
         for (size_t i = 0; i < model->dimensions[RC_WHEELS]; ++i) {
             const double value = rc_values(model, all[k].group)[i];
             if (!isfinite(value))
-                return rc_fail(model, RC_ERROR, "the static %s of wheel %zu is %g %s; it must be a "
-                                                "finite number", all[k].name, i + 1, value,
-                               all[k].unit);
+                return rc_fail(model, otherwise,
+                               "the static %s of wheel %zu is %g %s; it must be a finite number",
+                               all[k].name, i + 1, value, all[k].unit);
         }
     return RC_OK;
 }
@@ -62,7 +63,7 @@ static rc_status start(rc_model *model)
     const rc_masses *own = model->own;
     const rc_masses_state at = rc_masses_view(own, model->dynamic);
     const double *forces = rc_values(model, CONTACT_FORCE);
-    if (check_forces(model, RC_ERROR) != RC_OK || check_standing(model) != RC_OK)
+    if (check_forces(model, RC_ERROR) != RC_OK || check_standing(model, RC_ERROR) != RC_OK)
         return RC_ERROR;
     memset(model->dynamic, 0, model->dynamic_count * sizeof(double));
     *at.start = *at.time = model->head->time;
@@ -167,7 +168,7 @@ static rc_masses_state copy(const rc_model *model)
 static rc_status step_masses(rc_model *model, double step, int linear)
 {
     rc_masses *own = model->own;
-    if (check_forces(model, RC_DISCARD) != RC_OK)
+    if (check_forces(model, RC_DISCARD) != RC_OK || check_standing(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
     memcpy(own->before, model->dynamic, model->dynamic_count * sizeof(double));
     const rc_masses_state at = copy(model);
@@ -190,7 +191,7 @@ static rc_status step_masses(rc_model *model, double step, int linear)
 static rc_status jump(rc_model *model)
 {
     const rc_masses *own = model->own;
-    if (check_forces(model, RC_DISCARD) != RC_OK)
+    if (check_forces(model, RC_DISCARD) != RC_OK || check_standing(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
     const rc_masses_state at = copy(model);
     if (own->suspension.coupled)

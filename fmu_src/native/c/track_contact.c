@@ -96,7 +96,8 @@ static const double *given_inputs(const rc_model *model)
     return rc_values(model, POSITION);
 }
 
-/* Refuses wheels beyond the track and displacements that are no numbers. */
+/* Refuses wheels beyond the track and other values that are no numbers, even where they matter at
+ * the start only. */
 static rc_status check_inputs(rc_model *model, rc_status otherwise)
 {
     rc_track *track = &((rc_track_contact *)model->own)->track;
@@ -106,6 +107,14 @@ static rc_status check_inputs(rc_model *model, rc_status otherwise)
             return rc_fail(model, otherwise, "track: displacement %g m of wheel %zu must be a "
                                              "finite number; look for the cause in the vehicle",
                            displacements[i], i + 1);
+    for (size_t i = 0; i < track->basis.wheels; ++i) {
+        const double change = rc_values(model, LOAD_CHANGE)[i];
+        const double velocity = rc_values(model, INITIAL_VELOCITY)[i];
+        if (!(isfinite(change) && isfinite(velocity)))
+            return rc_fail(model, otherwise,
+                           "track: load change %g N and velocity %g m/s of wheel %zu must be finite "
+                           "numbers; look for the cause in the vehicle", change, velocity, i + 1);
+    }
     return rc_check_wheels(model, track, given_inputs(model), otherwise);
 }
 
@@ -115,16 +124,11 @@ static rc_status take_loads(rc_model *model)
     rc_track_contact *own = model->own;
     for (size_t i = 0; i < own->track.basis.wheels; ++i) {
         const double load = own->force[i] = own->static_load + rc_values(model, LOAD_CHANGE)[i];
-        const double velocity = rc_values(model, INITIAL_VELOCITY)[i];
-        if (!(isfinite(load) && load >= 0.0))
+        if (!(load >= 0.0))
             return rc_fail(model, RC_ERROR,
-                           "track: wheel %zu starts with a load of %g N, which must be a finite "
-                           "number, at least 0: begin where the rail is more even, or let the "
-                           "vehicle have the contacts", i + 1, load);
-        if (!isfinite(velocity))
-            return rc_fail(model, RC_ERROR,
-                           "track: initial velocity %g m/s of wheel %zu must be a finite number; "
-                           "look for the cause in the vehicle", velocity, i + 1);
+                           "track: wheel %zu starts with a load of %g N, which must be at least 0: "
+                           "begin where the rail is more even, or let the vehicle have the contacts",
+                           i + 1, load);
     }
     return RC_OK;
 }
