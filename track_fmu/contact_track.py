@@ -9,6 +9,14 @@ import numpy as np
 from .beam_element import FloatArray
 from .contact_law import ContactLaw, Surface
 from .contact_solution import solve_contact
+from .contact_start import (
+    INSTANT,
+    SWAY,
+    check_displacements,
+    check_start,
+    first_step_doubts,
+    surface_rate,
+)
 from .contact_state import ContactState
 from .continuation import begin, continued, remember
 from .observation import Observation
@@ -16,8 +24,6 @@ from .step_parts import count_parts
 from .track_model import TrackModel
 
 LONGEST_PART = 2e-4  # s; beyond it the contact forces on straight lines resolve no strike
-INSTANT = 1e-6  # s, over which the rate of a surface is taken at the start
-SWAY = 1.0  # s, over which bodies above the wheels smooth it; about a period of car bodies
 
 
 class ContactTrack:
@@ -142,39 +148,24 @@ class ContactTrack:
         RuntimeError
             If the equilibrium is not found.
         """
-        _check_displacements(displacements)
+        check_displacements(displacements)
         own, loads = self._own, np.full(len(positions), self._static_load) + load_change
         velocities = np.zeros_like(positions) + velocity
-        _check_start(loads, velocities)
+        check_start(loads, velocities)
         self._track.start(positions, loads)
         own.compression[:] = self._law.compression(loads)
         own.origin[:] = self._track.rail_displacement + self._surface.drops(positions)
         own.origin += own.compression - displacements
         own.ahead[:] = loads
-        own.velocity[:] = self._rate(positions, INSTANT)
-        own.mean_velocity[:] = self._rate(positions, SWAY)
+        speed = self._track.options.initial_speed
+        own.velocity[:] = surface_rate(self._surface, positions, speed=speed, span=INSTANT)
+        own.mean_velocity[:] = surface_rate(self._surface, positions, speed=speed, span=SWAY)
         own.passed[0] = 0.0
         self._begin(np.concatenate((positions, displacements)), velocities)
 
     def doubts(self, step_size: float, positions: FloatArray) -> list[str]:
         """What is doubtful about a first step of given start values, a sentence each."""
-        own = self._own
-        found: list[str] = []
-        if own.passed[0] > 0.0:
-            return found
-        if step_size > LONGEST_PART * (1.0 + 1e-9):
-            found.append(
-                f"steps of {step_size:.6g} s are too long for values that are known at their start "
-                f"only: use {LONGEST_PART:g} s or less"
-            )
-        if not np.array_equal(own.history[0, : len(positions)], positions):
-            found.append(
-                f"at the start of the first step wheel 1 is at {positions[0]:.9g} m, at the static "
-                f"start it was at {own.history[0, 0]:.9g} m: set linear_inputs = true in a host "
-                "that steps the vehicle first, or the start values of the positions in one that "
-                "connects nothing before the first step"
-            )
-        return found
+        return first_step_doubts(self._own, step_size, positions, longest=LONGEST_PART)
 
     def step(
         self,
@@ -205,7 +196,7 @@ class ContactTrack:
             If the forces do not converge. The state is then unchanged.
         """
         parts = count_parts(step_size, LONGEST_PART)
-        _check_displacements(displacements)
+        check_displacements(displacements)
         self._track.window.check(positions)
         own, before = self._own, self.state
         given = np.concatenate((positions, displacements))
@@ -238,13 +229,6 @@ class ContactTrack:
         own.passed[0] = 0.0 if linear else step_size
         own.ahead[:] = np.maximum(1.5 * self.contact_force - 0.5 * force, 0.0)
 
-    def _rate(self, positions: FloatArray, span: float) -> FloatArray:
-        """How fast the surface sinks under the wheels, in the mean over a span [s]: [m/s]."""
-        half = 0.5 * span * self._track.options.initial_speed
-        drops = self._surface.drops
-        rate: FloatArray = (drops(positions + half) - drops(positions - half)) / span
-        return rate
-
     def _begin(self, given: FloatArray, velocity: FloatArray) -> None:
         """Continue given positions and displacements, these with a velocity, from nothing else."""
         speed = np.full_like(velocity, self._track.options.initial_speed)
@@ -264,26 +248,3 @@ class ContactTrack:
         )
         self._track.move(operator, solution.force, solution.increment)
         own.compression[:] = solution.compression
-
-
-def _check_start(loads: FloatArray, velocities: FloatArray) -> None:
-    for number, (load, velocity) in enumerate(zip(loads, velocities, strict=True), start=1):
-        if not (math.isfinite(load) and math.isfinite(velocity)):
-            raise ValueError(
-                f"track: load {float(load):g} N and velocity {float(velocity):g} m/s of wheel "
-                f"{number} must be finite numbers; look for the cause in the vehicle"
-            )
-        if load < 0.0:
-            raise ValueError(
-                f"track: wheel {number} starts with a load of {float(load):g} N, which must be at "
-                "least 0: begin where the rail is more even, or let the vehicle have the contacts"
-            )
-
-
-def _check_displacements(displacements: FloatArray) -> None:
-    for number, displacement in enumerate(displacements, start=1):
-        if not math.isfinite(displacement):
-            raise ValueError(
-                f"track: displacement {float(displacement)!r} m of wheel {number} must be a finite "
-                "number; look for the cause in the vehicle"
-            )

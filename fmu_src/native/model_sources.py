@@ -54,11 +54,19 @@ TRACK_CONTACT = (
     *dict.fromkeys((*ON_TRACK, *SURFACES)),
     "contact_memory.c",
     "contact_solution.c",
+    "contact_start.c",
     "contact_step.c",
     "continuation.c",
     "track_contact.c",
 )
-MASSES = (*MOTION, *SUSPENSION, "masses.c", "masses_setup.c", "suspended_masses.c")
+MASSES = (
+    *MOTION,
+    *SUSPENSION,
+    "masses.c",
+    "masses_setup.c",
+    "masses_start.c",
+    "suspended_masses.c",
+)
 MODELS = {
     name: (*FMI, *COMMON, *own)
     for name, own in (

@@ -28,57 +28,6 @@ static const rc_group_kind KINDS[] = {
     [LINEAR_INPUTS] = {"linear_inputs", RC_BOOLEAN, RC_PARAMETER, RC_ONE},
 };
 
-static rc_status check_forces(rc_model *model, rc_status otherwise)
-{
-    const double *forces = rc_values(model, CONTACT_FORCE);
-    for (size_t i = 0; i < model->dimensions[RC_WHEELS]; ++i)
-        if (!isfinite(forces[i]))
-            return rc_fail(model, otherwise, "the contact force of wheel %zu is %g N; it must be a "
-                                             "finite number", i + 1, forces[i]);
-    return RC_OK;
-}
-
-/* Values that matter at the start only are numbers later on as well. */
-static rc_status check_standing(rc_model *model, rc_status otherwise)
-{
-    static const struct {
-        size_t group;
-        const char *name, *unit;
-    } all[] = {{STATIC_DISPLACEMENT, "displacement", "m"},
-               {STATIC_VELOCITY, "velocity", "m/s"},
-               {MEAN_VELOCITY, "mean_velocity", "m/s"}};
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; ++k)
-        for (size_t i = 0; i < model->dimensions[RC_WHEELS]; ++i) {
-            const double value = rc_values(model, all[k].group)[i];
-            if (!isfinite(value))
-                return rc_fail(model, otherwise,
-                               "the static %s of wheel %zu is %g %s; it must be a finite number",
-                               all[k].name, i + 1, value, all[k].unit);
-        }
-    return RC_OK;
-}
-
-static rc_status start(rc_model *model)
-{
-    const rc_masses *own = model->own;
-    const rc_masses_state at = rc_masses_view(own, model->dynamic);
-    const double *forces = rc_values(model, CONTACT_FORCE);
-    if (check_forces(model, RC_ERROR) != RC_OK || check_standing(model, RC_ERROR) != RC_OK)
-        return RC_ERROR;
-    memset(model->dynamic, 0, model->dynamic_count * sizeof(double));
-    *at.start = *at.time = model->head->time;
-    memcpy(at.force, forces, own->wheels * sizeof(double));
-    memcpy(at.velocity, rc_values(model, STATIC_VELOCITY), own->wheels * sizeof(double));
-    if (own->suspension.coupled &&
-        !rc_settle_masses(own, &at, rc_values(model, STATIC_DISPLACEMENT),
-                          rc_values(model, MEAN_VELOCITY)))
-        return rc_fail(model, RC_ERROR,
-                       "the vehicle finds no static equilibrium on wheels displaced by up to %g m "
-                       "at the start; begin on a more even rail",
-                       rc_largest(own->q, own->wheels));
-    return RC_OK;
-}
-
 typedef struct {
     double displacement, velocity;
 } motion;
@@ -168,7 +117,7 @@ static rc_masses_state copy(const rc_model *model)
 static rc_status step_masses(rc_model *model, double step, int linear)
 {
     rc_masses *own = model->own;
-    if (check_forces(model, RC_DISCARD) != RC_OK || check_standing(model, RC_DISCARD) != RC_OK)
+    if (rc_check_masses(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
     memcpy(own->before, model->dynamic, model->dynamic_count * sizeof(double));
     const rc_masses_state at = copy(model);
@@ -191,7 +140,7 @@ static rc_status step_masses(rc_model *model, double step, int linear)
 static rc_status jump(rc_model *model)
 {
     const rc_masses *own = model->own;
-    if (check_forces(model, RC_DISCARD) != RC_OK || check_standing(model, RC_DISCARD) != RC_OK)
+    if (rc_check_masses(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
     const rc_masses_state at = copy(model);
     if (own->suspension.coupled)
@@ -254,7 +203,7 @@ static const rc_class MASSES = {
     .own_size = sizeof(rc_masses),
     .open = rc_open_masses,
     .prepare = rc_prepare_masses,
-    .start = start,
+    .start = rc_start_masses,
     .step = step_masses,
     .jump = jump,
     .read = read_outputs,

@@ -61,6 +61,12 @@ rc_status rc_open_masses(rc_model *model);
 rc_status rc_prepare_masses(rc_model *model);
 void rc_release_masses(rc_model *model);
 
+/* Refuses inputs that are no numbers, even where they matter at the start only. */
+rc_status rc_check_masses(rc_model *model, rc_status otherwise);
+
+/* Static equilibrium; see rc_class. */
+rc_status rc_start_masses(rc_model *model);
+
 /* Puts the suspended vehicle in equilibrium on wheels that are held at given displacements, and
  * lets bodies move as wheels of the given velocities would; 0 if it finds none. */
 int rc_settle_masses(const rc_masses *own, const rc_masses_state *at, const double *displacement,

@@ -8,26 +8,6 @@
 #include "dense.h"
 #include "track_setup.h"
 
-enum {
-    STATIC_WHEEL_LOAD = RC_TRACK_PARAMETER_COUNT,
-    WHEEL_RADIUS,
-    HERTZ_COEFFICIENT,
-    SURFACE,
-    POSITION = SURFACE + RC_SURFACE_PARAMETER_COUNT,
-    DISPLACEMENT,
-    LOAD_CHANGE,
-    INITIAL_VELOCITY,
-    CONTACT_FORCE,
-    CONTACT_FORCE_AHEAD,
-    GAP,
-    IN_CONTACT,
-    STATIC_DISPLACEMENT,
-    STATIC_VELOCITY,
-    MEAN_VELOCITY,
-    TRACK_OUTPUT,
-    LINEAR_INPUTS = TRACK_OUTPUT + RC_TRACK_OUTPUT_COUNT
-};
-
 static const rc_group_kind KINDS[] = {
     RC_TRACK_PARAMETERS,
     [STATIC_WHEEL_LOAD] = {"static_wheel_load", RC_REAL, RC_PARAMETER, RC_ONE},
@@ -52,8 +32,6 @@ static const rc_group_kind KINDS[] = {
 #define MOST_PARTS 1e5          /* of a step; a second of work */
 #define SMALL_MOVE 1e-5         /* m; of a position, to difference a step */
 #define SMALL_DISPLACEMENT 1e-8 /* m; likewise of a displacement */
-#define INSTANT 1e-6            /* s, over which the rate of a surface is taken at the start */
-#define SWAY 1.0 /* s, over which bodies above the wheels smooth it; about a period of car bodies */
 
 static rc_status open_contact(rc_model *model)
 {
@@ -96,9 +74,7 @@ static const double *given_inputs(const rc_model *model)
     return rc_values(model, POSITION);
 }
 
-/* Refuses wheels beyond the track and other values that are no numbers, even where they matter at
- * the start only. */
-static rc_status check_inputs(rc_model *model, rc_status otherwise)
+rc_status rc_check_contact(rc_model *model, rc_status otherwise)
 {
     rc_track *track = &((rc_track_contact *)model->own)->track;
     const double *displacements = rc_values(model, DISPLACEMENT);
@@ -118,59 +94,12 @@ static rc_status check_inputs(rc_model *model, rc_status otherwise)
     return rc_check_wheels(model, track, given_inputs(model), otherwise);
 }
 
-/* Loads of the wheels at the start, which must not be below zero, into own->force. */
-static rc_status take_loads(rc_model *model)
-{
-    rc_track_contact *own = model->own;
-    for (size_t i = 0; i < own->track.basis.wheels; ++i) {
-        const double load = own->force[i] = own->static_load + rc_values(model, LOAD_CHANGE)[i];
-        if (!(load >= 0.0))
-            return rc_fail(model, RC_ERROR,
-                           "track: wheel %zu starts with a load of %g N, which must be at least 0: "
-                           "begin where the rail is more even, or let the vehicle have the contacts",
-                           i + 1, load);
-    }
-    return RC_OK;
-}
-
-/* How fast the surface sinks under a wheel, in the mean over a span. */
-static double rate(const rc_track_contact *own, size_t wheel, double position, double span)
-{
-    const double half = 0.5 * span * own->track.initial_speed;
-    return (rc_surface_drop(&own->surfaces, wheel, position + half) -
-            rc_surface_drop(&own->surfaces, wheel, position - half)) / span;
-}
-
-static rc_status start(rc_model *model)
-{
-    rc_track_contact *own = model->own;
-    rc_track *track = &own->track;
-    const rc_contact_state at = rc_view_contact(&track->basis, model->dynamic);
-    rc_track_state state = rc_view_state(&track->basis, model->dynamic);
-    const double *positions = given_inputs(model), *displacements = rc_values(model, DISPLACEMENT);
-    if (check_inputs(model, RC_ERROR) != RC_OK || take_loads(model) != RC_OK)
-        return RC_ERROR;
-    if (rc_start_track(model, track, &state, positions, own->force) != RC_OK)
-        return RC_ERROR;
-    for (size_t i = 0; i < track->basis.wheels; ++i) {
-        at.compression[i] = rc_hertz_compression(own->force[i], own->coefficient);
-        at.origin[i] = state.displacement[i] + rc_surface_drop(&own->surfaces, i, positions[i]);
-        at.origin[i] += at.compression[i] - displacements[i];
-        at.ahead[i] = own->force[i];
-        at.velocity[i] = rate(own, i, positions[i], INSTANT);
-        at.mean_velocity[i] = rate(own, i, positions[i], SWAY);
-    }
-    *at.passed = 0.0;
-    rc_begin_contact(own, &at, positions, rc_values(model, INITIAL_VELOCITY));
-    return RC_OK;
-}
-
 static rc_status step_contact(rc_model *model, double step, int linear)
 {
     rc_track_contact *own = model->own;
     const size_t bytes = model->dynamic_count * sizeof(double);
     const rc_contact_state at = rc_view_contact(&own->track.basis, model->dynamic);
-    if (check_inputs(model, RC_DISCARD) != RC_OK)
+    if (rc_check_contact(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
     if (step / RC_LONGEST_PART > MOST_PARTS)
         return rc_fail(model, RC_DISCARD,
@@ -197,7 +126,7 @@ static rc_status jump(rc_model *model)
 {
     rc_track_contact *own = model->own;
     const rc_contact_state at = rc_view_contact(&own->track.basis, model->dynamic);
-    if (check_inputs(model, RC_DISCARD) != RC_OK)
+    if (rc_check_contact(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
     rc_take_contact(own, &at, given_inputs(model));
     return RC_OK;
@@ -281,7 +210,7 @@ static const rc_class TRACK_CONTACT = {
     .own_size = sizeof(rc_track_contact),
     .open = open_contact,
     .prepare = prepare,
-    .start = start,
+    .start = rc_start_contact,
     .step = step_contact,
     .jump = jump,
     .read = read_outputs,

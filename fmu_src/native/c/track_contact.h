@@ -6,6 +6,28 @@
 #include "contact_solution.h"
 #include "continuation.h"
 #include "surfaces.h"
+#include "track_setup.h"
+
+/* Groups of variables, in the order of the declaration. */
+enum {
+    STATIC_WHEEL_LOAD = RC_TRACK_PARAMETER_COUNT,
+    WHEEL_RADIUS,
+    HERTZ_COEFFICIENT,
+    SURFACE,
+    POSITION = SURFACE + RC_SURFACE_PARAMETER_COUNT,
+    DISPLACEMENT,
+    LOAD_CHANGE,
+    INITIAL_VELOCITY,
+    CONTACT_FORCE,
+    CONTACT_FORCE_AHEAD,
+    GAP,
+    IN_CONTACT,
+    STATIC_DISPLACEMENT,
+    STATIC_VELOCITY,
+    MEAN_VELOCITY,
+    TRACK_OUTPUT,
+    LINEAR_INPUTS = TRACK_OUTPUT + RC_TRACK_OUTPUT_COUNT
+};
 
 #define RC_LONGEST_PART 2e-4 /* s; beyond it forces on straight lines resolve no strike */
 
@@ -57,5 +79,12 @@ double rc_count_contact_parts(double step);
 /* One step of the dynamic values, which are spoilt unless it is made. */
 rc_advance rc_advance_contact(rc_track_contact *own, double *dynamic, double step,
                               const double *given, int linear);
+
+/* Refuses wheels beyond the track and other values that are no numbers, even where they matter at
+ * the start only. */
+rc_status rc_check_contact(rc_model *model, rc_status otherwise);
+
+/* Static equilibrium; see rc_class. */
+rc_status rc_start_contact(rc_model *model);
 
 #endif
