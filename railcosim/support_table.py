@@ -24,6 +24,7 @@ PROPERTIES = (
     "ballast_damping_factor",
     "gap",
     "fastened",
+    "sleeper_mass_factor",
 )
 """Columns that say what it has: factors, the gap under its sleeper [m], 1 or 0."""
 

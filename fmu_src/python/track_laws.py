@@ -16,6 +16,7 @@ from track_fmu.characteristics import (
     TableCharacteristic,
 )
 from track_fmu.component_law import ComponentLaw
+from track_fmu.heavy_ballast import HeavyBallast
 from track_fmu.pads import TotalPad
 from track_fmu.parameters import TrackParameters
 from track_fmu.preloaded_pad import PreloadedPad
@@ -32,6 +33,7 @@ SUPPORT_PARAMETERS = (
     ("ballast_damping_factor", 1.0, "1", "Factor on the ballast damping under support {}"),
     ("gap", 0.0, "m", "Gap between the unloaded sleeper of support {} and its ballast"),
     ("fastened", True, "", "Whether the rail is fastened on support {}; false: it can lift off"),
+    ("sleeper_mass_factor", 1.0, "1", "Factor on the mass of the sleeper of support {}"),
 )
 """Name, start value, unit and description of what every support has of its own."""
 
@@ -50,7 +52,8 @@ def make_laws(
         If a parameter is wrong or a table cannot be used.
     """
     factors = support_factors(track.supports, parameters)
-    if parameters.get("endless", False) and (factors.pads_differ or factors.ballast_differs):
+    differ = factors.pads_differ or factors.ballast_differs or factors.sleepers_differ
+    if parameters.get("endless", False) and differ:
         raise ValueError(
             "track: endless is true, but its supports differ; leave one of the two out"
         )
@@ -59,6 +62,8 @@ def make_laws(
             "track: sleepers bend, but their ballast differs or does not pull; leave one of the "
             "two out"
         )
+    if track.sleeper != "rigid" and factors.sleepers_differ:
+        raise ValueError("track: sleepers bend, but their masses differ; leave one of the two out")
     return _ballast_law(track, parameters, factors), _pad_law(track, parameters, factors)
 
 
@@ -83,7 +88,9 @@ def _ballast_law(
     kind, pulls = parameters["ballast"], bool(parameters["ballast_pulls"])
     coefficients = {name: parameters[f"ballast_{name}"] for name in ("alpha", "beta", "delta")}
     tangent = bool(parameters["ballast_tangent_damping"])
-    if pulls and not factors.ballast_differs:
+    mass = parameters["ballast_mass"]
+    inertial = mass != 0.0 or factors.sleepers_differ
+    if pulls and not (factors.ballast_differs or inertial):
         if kind == "linear":
             return None
         if kind == "state_dependent" and not tangent:
@@ -107,13 +114,21 @@ def _ballast_law(
             f"track: ballast is {kind!r}; it must be 'state_dependent', 'linear', 'hyperbolic' or "
             "a .csv file"
         )
-    return TotalBallast(
+    bed = TotalBallast(
         characteristic=characteristic,
         linear_stiffness=track.ballast_stiffness,
         linear_damping=track.ballast_damping,
         factors=factors,
         tangent_damping=tangent,
         pulls=pulls,
+    )
+    if not inertial:
+        return bed
+    return HeavyBallast(
+        bed=bed,
+        mass=mass,
+        grows=bool(parameters["ballast_mass_grows"]),
+        sleeper_mass=(factors.sleeper_mass - 1.0) * track.sleeper_mass,
     )
 
 

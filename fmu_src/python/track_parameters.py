@@ -140,6 +140,10 @@ def _law_parameters(structure: TrackParameters) -> list[Variable]:
           "preload [N], static stiffness, stiffness [N/m] and damping [N.s/m] of the branch")),
         ("clip_preload", 20e3, "N", 0.0,
          "Preload of a rail pad under the unloaded rail, where its parameters depend on it"),
+        ("ballast_mass", 0.0, "kg", 0.0,
+         "Mass of the ballast that moves along under an unloaded rail seat"),
+        ("ballast_mass_grows", False, "", None,
+         "Whether that mass grows with the ballast's secant stiffness; false: it is constant"),
     )  # fmt: skip
     variables = [
         Variable(

@@ -42,6 +42,18 @@ LAWS = {
     "soft and stiff beds": supports(
         ballast_stiffness_factor_5=0.4, ballast_stiffness_factor_6=2.0, ballast_damping_factor_7=3.0
     ),
+    "constant mass": {"ballast_mass": 200.0},
+    "mass on linear ballast": {"ballast_mass": 80.0, "ballast": "linear"},
+    "growing mass": {"ballast_mass": 60.0, "ballast_mass_grows": True},
+    "growing mass of a table without pull": {
+        "ballast": BALLAST,
+        "ballast_pulls": False,
+        "ballast_mass": 60.0,
+        "ballast_mass_grows": True,
+    },
+    "constant mass over gaps": {"ballast_mass": 100.0} | supports(gap_5=0.4e-3, gap_6=0.1e-3),
+    "light and heavy sleepers": supports(sleeper_mass_factor_5=0.4, sleeper_mass_factor_6=3.0),
+    "a heavy sleeper on viscoelastic pads": {"pad": PAD, **supports(sleeper_mass_factor_5=1.7)},
 }
 """Parameters by which a track differs from the paper's."""
 
@@ -89,8 +101,10 @@ def test_steps_with_contacts(contact_pair, short_track, values):
     assert_alike(pair.outputs(), relative=1e-11)
 
 
-def test_pads_travel_with_the_window_of_an_endless_track(track_pair, short_track):
-    values = {"pad": PAD, "ballast": "hyperbolic"}
+@pytest.mark.parametrize(
+    "values", [{"pad": PAD, "ballast": "hyperbolic"}, {"ballast_mass": 100.0}], ids=["pads", "mass"]
+)
+def test_laws_travel_with_the_window_of_an_endless_track(track_pair, short_track, values):
     pair = track_pair(short_track, endless=True, speed=SPEED, values=values)
     positions, forces = np.array([4.8, 3.0]), np.full(2, STATIC_LOAD)
     pair.start(positions, forces)
@@ -102,7 +116,9 @@ def test_pads_travel_with_the_window_of_an_endless_track(track_pair, short_track
     assert_alike(scaled(pair.states(), 2e-4), relative=1e-9)
 
 
-@pytest.mark.parametrize("name", ["viscoelastic pads, one without fastening", "gaps"])
+@pytest.mark.parametrize(
+    "name", ["viscoelastic pads, one without fastening", "gaps", "constant mass over gaps"]
+)
 def test_states_are_restored_bit_for_bit_and_travel(native, name):
     def go(track, count):
         for _ in range(count):
@@ -126,7 +142,10 @@ def test_states_are_restored_bit_for_bit_and_travel(native, name):
     assert track.state.tobytes() == end
 
 
-@pytest.mark.parametrize("name", ["no pull", "gaps", "viscoelastic pads", "table"])
+@pytest.mark.parametrize(
+    "name",
+    ["no pull", "gaps", "viscoelastic pads", "table", "growing mass", "light and heavy sleepers"],
+)
 def test_derivatives_are_those_of_differences(native, name):
     def moved(by):
         track.state = before
@@ -158,6 +177,9 @@ def test_derivatives_are_those_of_differences(native, name):
         (supports(gap_3=-1e-3), "gap = -0.001 of support 3 must be a finite number"),
         (supports(pad_damping_factor_2=np.nan), "pad_damping_factor = nan of support 2"),
         (supports(gap_3=1e-3) | {"endless": True}, "endless is true, but its supports differ"),
+        (supports(sleeper_mass_factor_3=0.05), "0.05 of support 3 must be .* at least 0.1"),
+        (supports(sleeper_mass_factor_3=2.0) | {"endless": True}, "but its supports differ"),
+        ({"ballast_mass": -1.0}, "mass = -1 kg must be"),
         ({"ballast_beta": -1e17}, "all loads on ballast and pads rise"),
     ],
 )

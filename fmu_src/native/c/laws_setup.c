@@ -22,18 +22,22 @@ static int all_are(const double *values, size_t count, double nominal)
     return 1;
 }
 
-/* Refuses factors and gaps that are no numbers of at least 0. */
+#define LEAST_MASS 0.1 /* of a sleeper over the nominal one; see the twin */
+
+/* Refuses factors and gaps that are no numbers of at least 0, or LEAST_MASS. */
 static rc_status check_supports(rc_model *model, size_t supports)
 {
     static const size_t groups[] = {PAD_STIFFNESS_FACTOR, PAD_DAMPING_FACTOR,
-                                    BALLAST_STIFFNESS_FACTOR, BALLAST_DAMPING_FACTOR, SUPPORT_GAP};
+                                    BALLAST_STIFFNESS_FACTOR, BALLAST_DAMPING_FACTOR, SUPPORT_GAP,
+                                    SLEEPER_MASS_FACTOR};
     for (size_t g = 0; g < sizeof groups / sizeof groups[0]; ++g)
         for (size_t s = 0; s < supports; ++s) {
             const double value = rc_values(model, groups[g])[s];
-            if (!(isfinite(value) && value >= 0.0))
+            const double least = groups[g] == SLEEPER_MASS_FACTOR ? LEAST_MASS : 0.0;
+            if (!(isfinite(value) && value >= least))
                 return rc_fail(model, RC_ERROR, "track: %s = %g of support %zu must be a finite "
-                                                "number, at least 0",
-                               strchr(model->groups[groups[g]].name, '.') + 1, value, s + 1);
+                                                "number, at least %g",
+                               strchr(model->groups[groups[g]].name, '.') + 1, value, s + 1, least);
         }
     return RC_OK;
 }
@@ -83,10 +87,17 @@ static rc_status read_ballast(rc_model *model, rc_laws *laws)
     const int uniform = all_are(laws->ballast_stiffness_factor, laws->supports, 1.0) &&
                         all_are(laws->ballast_damping_factor, laws->supports, 1.0) &&
                         all_are(laws->gap, laws->supports, 0.0);
-    laws->ballast = !(uniform && laws->pulls)              ? RC_TOTAL
-                    : linear                               ? RC_NO_INCREMENT
-                    : polynomial && !laws->tangent_damping ? RC_PLAIN
-                                                           : RC_TOTAL;
+    laws->ballast_mass = *rc_values(model, BALLAST_MASS);
+    laws->mass_grows = *rc_values(model, BALLAST_MASS_GROWS) != 0.0;
+    if (!(isfinite(laws->ballast_mass) && laws->ballast_mass >= 0.0))
+        return rc_fail(model, RC_ERROR, "ballast: mass = %g kg must be a finite number, at least 0",
+                       laws->ballast_mass);
+    laws->inertial = laws->ballast_mass != 0.0 ||
+                     !all_are(laws->sleeper_mass_factor, laws->supports, 1.0);
+    laws->ballast = !(uniform && laws->pulls) || laws->inertial ? RC_TOTAL
+                    : linear                                    ? RC_NO_INCREMENT
+                    : polynomial && !laws->tangent_damping      ? RC_PLAIN
+                                                                : RC_TOTAL;
     return laws->ballast == RC_TOTAL ? read_bed(model, laws, kind) : RC_OK;
 }
 
@@ -134,12 +145,16 @@ static rc_status check_track(rc_model *model, const rc_track *track)
     const int pads_alike = all_are(laws->pad_stiffness_factor, laws->supports, 1.0) &&
                            all_are(laws->pad_damping_factor, laws->supports, 1.0) &&
                            all_are(laws->fastened, laws->supports, 1.0);
-    if (*rc_values(model, ENDLESS) != 0.0 && !(beds_alike && pads_alike))
+    const int sleepers_alike = all_are(laws->sleeper_mass_factor, laws->supports, 1.0);
+    if (*rc_values(model, ENDLESS) != 0.0 && !(beds_alike && pads_alike && sleepers_alike))
         return rc_fail(model, RC_ERROR, "track: endless is true, but its supports differ; leave "
                                         "one of the two out");
     if (track->basis.sleeper_shape != NULL && !(beds_alike && laws->pulls))
         return rc_fail(model, RC_ERROR, "track: sleepers bend, but their ballast differs or does "
                                         "not pull; leave one of the two out");
+    if (track->basis.sleeper_shape != NULL && !sleepers_alike)
+        return rc_fail(model, RC_ERROR, "track: sleepers bend, but their masses differ; leave one "
+                                        "of the two out");
     return RC_OK;
 }
 
@@ -158,7 +173,9 @@ rc_status rc_read_laws(rc_model *model, rc_track *track)
                       .ballast_stiffness_factor = rc_values(model, BALLAST_STIFFNESS_FACTOR),
                       .ballast_damping_factor = rc_values(model, BALLAST_DAMPING_FACTOR),
                       .gap = rc_values(model, SUPPORT_GAP),
-                      .fastened = rc_values(model, FASTENED)};
+                      .fastened = rc_values(model, FASTENED),
+                      .sleeper_mass = basis->inertia[RC_INERTIA_COUNT - 1],
+                      .sleeper_mass_factor = rc_values(model, SLEEPER_MASS_FACTOR)};
     if (check_supports(model, basis->supports) != RC_OK || read_ballast(model, laws) != RC_OK ||
         read_pads(model, laws) != RC_OK) {
         rc_free_laws(laws);
