@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from .library import NativeError
-from .twins import assert_alike
+from .twins import assert_alike, scaled
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 STATIC_LOAD = 117_720.0
@@ -56,15 +56,6 @@ LAWS = {
     "a heavy sleeper on viscoelastic pads": {"pad": PAD, **supports(sleeper_mass_factor_5=1.7)},
 }
 """Parameters by which a track differs from the paper's."""
-
-
-def scaled(states, step):
-    """Rates of forces as what these change in the step: forces are known to 1e-8 N."""
-    for name, mine, other in states:
-        if name == "increment_rate":
-            yield "force_change", mine * step, other * step
-        else:
-            yield name, mine, other
 
 
 def drive(pair, *, random, step, positions, forces):

@@ -12,7 +12,7 @@ from track_fmu.parameters import TrackParameters
 from track_fmu.track_model import LONGEST_STEP
 
 from .library import DiscardedError, NativeError
-from .twins import assert_alike
+from .twins import assert_alike, scaled
 
 STATIC_LOAD = 117_720.0
 SPEED = 40.0 / 3.6
@@ -115,7 +115,7 @@ def test_other_tracks(track_pair, values, pairs, residual, mass):
     for step in (1e-4, 3e-4, 7e-4):
         positions = positions + SPEED * step
         pair.step(step, positions, np.array([1.2 * STATIC_LOAD]))
-    assert_alike(pair.states(), **agreement)
+    assert_alike(scaled(pair.states(), step) if mass else pair.states(), **agreement)
     assert_alike(pair.outputs(), **agreement)
 
 
