@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .track_section import Track
     from .variation import Variation
 
-PAD_STREAM, BALLAST_STREAM = 0, 1
+PAD_STREAM, BALLAST_STREAM, SLEEPER_STREAM = 0, 1, 2
 """Which random numbers of a seed are whose."""
 
 
@@ -61,6 +61,9 @@ def support_properties(scenario: Scenario) -> dict[str, NDArray[np.float64]]:
     for part, factor in factors.items():
         values[f"{part}_stiffness_factor"] *= factor
         values[f"{part}_damping_factor"] *= factor
+    values["sleeper_mass_factor"] *= random_factors(
+        variation, positions, variation.sleeper_mass_deviation, SLEEPER_STREAM
+    )
     values["gap"][variation.listed("hanging_sleepers", supports)] = variation.hanging_gap
     values["fastened"][variation.listed("missing_fastenings", supports)] = 0.0
     for name in ("pad_stiffness_factor", "pad_damping_factor"):

@@ -15,7 +15,7 @@ from .variation import Variation
 if TYPE_CHECKING:
     from .scenario import Scenario
 
-PAPER = ("ballast_tangent_damping", "ballast_pulls", "pad", "supports")
+PAPER = ("ballast_tangent_damping", "ballast_pulls", "ballast_mass", "pad", "supports")
 """Keys of the track without which its laws are those of the paper."""
 
 

@@ -52,6 +52,9 @@ class Track:
     ballast_tangent_damping, ballast_pulls : bool
         Whether damping follows the tangent stiffness, not the secant; whether a lifted sleeper is
         pulled back.
+    ballast_mass, ballast_mass_grows : float, bool
+        Ballast that moves along under an unloaded rail seat [kg]; whether its mass grows with the
+        secant stiffness.
     pad : str
         ``linear`` or a CSV file: displacement [m], load [N]; or preload [N], static stiffness,
         stiffness [N/m] and damping [N s/m] of the branch.
@@ -100,6 +103,8 @@ class Track:
     ballast_slope: Annotated[float, Number(unit="1/m", above=0.0)] = 2e3
     ballast_tangent_damping: bool = False
     ballast_pulls: bool = True
+    ballast_mass: Annotated[float, Number(unit="kg", at_least=0.0, at_most=1e5)] = 0.0
+    ballast_mass_grows: bool = False
     pad: Annotated[str, Choice(("linear",), or_csv=True)] = "linear"
     clip_preload: Annotated[float, Number(unit="N", at_least=0.0)] = 20e3
     supports: Annotated[str, CsvFile()] = ""

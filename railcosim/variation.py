@@ -25,6 +25,8 @@ class Variation:
         Distance over which their correlation falls to 1/e [m]; 0: every support by itself.
     pad_stiffness_deviation, ballast_stiffness_deviation : float
         Standard deviation of the logarithm of stiffness and damping; the median is the track's.
+    sleeper_mass_deviation : float
+        Likewise of the mass of sleepers that are rigid.
     transition_begin, transition_length : float
         Where the ballast stiffness begins to change, and over which distance [m].
     transition_factor : float
@@ -43,6 +45,7 @@ class Variation:
     correlation_length: Annotated[float, Number(unit="m", at_least=0.0)] = 0.0
     pad_stiffness_deviation: Annotated[float, Number(at_least=0.0, at_most=2.0)] = 0.0
     ballast_stiffness_deviation: Annotated[float, Number(at_least=0.0, at_most=2.0)] = 0.0
+    sleeper_mass_deviation: Annotated[float, Number(at_least=0.0, at_most=0.5)] = 0.0
     transition_begin: Annotated[float, Number(unit="m", at_least=0.0)] = 0.0
     transition_length: Annotated[float, Number(unit="m", at_least=0.0)] = 0.0
     transition_factor: Annotated[float, Number(at_least=0.01, at_most=100.0)] = 1.0

@@ -80,6 +80,14 @@ def test_varying_track():
     assert summarise(passage).peak_contact_force == pytest.approx(299.09e3, rel=1e-3)
 
 
+def test_moving_ballast():
+    """Python FMUs give the same to 11 digits; tests/passage holds constant masses to another."""
+    passage = run_passage(read_scenario(EXAMPLES / "moving_ballast.toml"), fmus="native")
+    assert summarise(passage).peak_contact_force == pytest.approx(232.34e3, rel=1e-3)
+    # 114.25 kN without masses
+    assert float(passage["ballast_force"].max()) == pytest.approx(109.28e3, rel=2e-3)
+
+
 @pytest.mark.parametrize(
     ("name", "peak", "smallest"),
     [("uneven_rail", 173.35e3, 64.23e3), ("worn_wheels", 272.26e3, 27.03e3)],

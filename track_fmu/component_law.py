@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import NamedTuple, Protocol, runtime_checkable
 
 from .assembly import IntArray
 from .beam_element import FloatArray
@@ -92,3 +92,48 @@ class MemorylessLaw:
         """Nothing; see `ComponentLaw.remembered`."""
         del deformation, rate, support
         return ()
+
+
+class Tangents(NamedTuple):
+    """Derivatives of a force increment by the motion, shape (c,) each.
+
+    Attributes
+    ----------
+    stiffness, damping, mass : float array
+        By deformation [N/m], rate [N s/m] and acceleration [kg].
+    """
+
+    stiffness: FloatArray
+    damping: FloatArray
+    mass: FloatArray
+
+
+@runtime_checkable
+class InertialLaw(Protocol):
+    """A law, beside `ComponentLaw`, whose force depends on the acceleration as well.
+
+    What it says as a `ComponentLaw` holds where nothing accelerates, as in the static start.
+
+    Attributes
+    ----------
+    sleeper_mass : (supports,) float array
+        What the sleepers weigh beyond the nominal one [kg]. Their inertia is part of the
+        increment but not of the force on the component.
+    """
+
+    @property
+    def sleeper_mass(self) -> FloatArray:
+        """See the attribute."""
+        ...
+
+    def moving_force(
+        self, deformation: FloatArray, rate: FloatArray, acceleration: FloatArray, support: IntArray
+    ) -> FloatArray:
+        """Force increment [N] in a motion [m], [m/s], [m/s2], shape (c,)."""
+        ...
+
+    def moving_tangents(
+        self, deformation: FloatArray, rate: FloatArray, acceleration: FloatArray, support: IntArray
+    ) -> Tangents:
+        """Return its derivatives."""
+        ...

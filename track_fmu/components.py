@@ -9,7 +9,7 @@ import numpy as np
 
 from .assembly import IntArray
 from .beam_element import FloatArray
-from .component_law import ComponentLaw
+from .component_law import ComponentLaw, InertialLaw, Tangents
 from .eigensolver import ComplexArray
 from .pad_memory import PadMemory
 from .reduction import ReducedTrack
@@ -20,8 +20,38 @@ class _Group:
     """Components that obey one law: their places among the active ones, and their supports."""
 
     law: ComponentLaw
+    inertial: InertialLaw | None
     part: slice
     support: IntArray
+
+    @classmethod
+    def of(cls, law: ComponentLaw, part: slice, support: IntArray) -> _Group:
+        """Return the group of a law, which may be inertial besides."""
+        return cls(law, law if isinstance(law, InertialLaw) else None, part, support)
+
+    def force(
+        self, deformation: FloatArray, rate: FloatArray, acceleration: FloatArray | None
+    ) -> FloatArray:
+        """Force increments of the group [N], from the motion of all active components."""
+        part, support = self.part, self.support
+        if acceleration is None or self.inertial is None:
+            return self.law.force(deformation[part], rate[part], support)
+        return self.inertial.moving_force(
+            deformation[part], rate[part], acceleration[part], support
+        )
+
+    def tangents(
+        self, deformation: FloatArray, rate: FloatArray, acceleration: FloatArray | None
+    ) -> Tangents:
+        """Their derivatives."""
+        part, support = self.part, self.support
+        if acceleration is None or self.inertial is None:
+            stiffness = self.law.stiffness(deformation[part], rate[part], support)
+            damping = self.law.damping(deformation[part], rate[part], support)
+            return Tangents(stiffness, damping, np.zeros_like(stiffness))
+        return self.inertial.moving_tangents(
+            deformation[part], rate[part], acceleration[part], support
+        )
 
     def during(self, step_size: float, memory: PadMemory) -> _Group:
         """Return the group over a step; itself if its law has no memory."""
@@ -45,6 +75,8 @@ class ActiveComponents:
     first_support : int
         How many supports there are before the one of number 0, which are none but on an endless
         track.
+    inertial : bool
+        Whether a law of theirs depends on the acceleration.
     remembers : bool
         Whether a law of theirs, bound to a step, has a memory.
     """
@@ -57,6 +89,7 @@ class ActiveComponents:
         self.shape: ComplexArray = track.shape[self.rows]
         self.flexibility: FloatArray = track.flexibility[np.ix_(self.rows, self.rows)]
         self._groups = groups
+        self.inertial = any(group.inertial is not None for group in groups)
         self.remembers = False
 
     @property
@@ -69,28 +102,24 @@ class ActiveComponents:
         """Whether a law among theirs is; see `ComponentLaw.stiff`."""
         return any(group.law.stiff for group in self._groups)
 
-    def force(self, deformation: FloatArray, rate: FloatArray) -> FloatArray:
-        """Force increments [N], shape (c,)."""
+    def force(
+        self, deformation: FloatArray, rate: FloatArray, acceleration: FloatArray | None = None
+    ) -> FloatArray:
+        """Force increments [N], shape (c,); without accelerations those of slow motion."""
         total = np.empty(self.count)
         for group in self._groups:
-            part = group.part
-            total[part] = group.law.force(deformation[part], rate[part], group.support)
+            total[group.part] = group.force(deformation, rate, acceleration)
         return total
 
-    def stiffness(self, deformation: FloatArray, rate: FloatArray) -> FloatArray:
-        """Tangent stiffness of the increments [N/m], shape (c,)."""
-        total = np.empty(self.count)
+    def tangents(
+        self, deformation: FloatArray, rate: FloatArray, acceleration: FloatArray | None = None
+    ) -> Tangents:
+        """Derivatives of the increments, (c,) each."""
+        total = Tangents(*np.empty((3, self.count)))
         for group in self._groups:
-            part = group.part
-            total[part] = group.law.stiffness(deformation[part], rate[part], group.support)
-        return total
-
-    def damping(self, deformation: FloatArray, rate: FloatArray) -> FloatArray:
-        """Tangent damping of the increments [N s/m], shape (c,)."""
-        total = np.empty(self.count)
-        for group in self._groups:
-            part = group.part
-            total[part] = group.law.damping(deformation[part], rate[part], group.support)
+            own = group.tangents(deformation, rate, acceleration)
+            for values, part in zip(total, own, strict=True):
+                values[group.part] = part
         return total
 
     def during(self, step_size: float, memory: PadMemory) -> ActiveComponents:
@@ -151,6 +180,17 @@ class Components:
             self._last = supports, window, active
         return self._last[2]
 
+    def sleeper_mass(self, window: int | None = None) -> FloatArray | None:
+        """What the sleepers weigh beyond the nominal one [kg], shape (supports,), if they do.
+
+        See `InertialLaw` and, for the window, `active`.
+        """
+        ballast = self._laws[0]
+        if ballast is None or not isinstance(ballast, InertialLaw):
+            return None
+        here = ballast if window is None else ballast.moved(window, self._track.parameters.supports)
+        return here.sleeper_mass if isinstance(here, InertialLaw) else None
+
     def _select(self, support: IntArray, window: int | None) -> ActiveComponents:
         groups: list[_Group] = []
         numbers: list[IntArray] = []
@@ -159,7 +199,7 @@ class Components:
             if law is not None:
                 here = law if window is None else law.moved(window, count)
                 first = len(support) * len(groups)
-                groups.append(_Group(here, slice(first, first + len(support)), support))
+                groups.append(_Group.of(here, slice(first, first + len(support)), support))
                 numbers.append(support + kind * count)
         number = np.concatenate(numbers) if numbers else np.zeros(0, dtype=np.intp)
         return ActiveComponents(self._track, groups, number, window or 0)

@@ -77,7 +77,7 @@ def solve_contact(
     RuntimeError
         If the iteration does not converge.
     """
-    trial = ContactSolution(compression, law.force(compression), operator.first_increment)
+    trial = ContactSolution(compression, law.force(compression), operator.increments.first)
     with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused below
         miss = _miss(operator, trial, level)
         for _ in range(MAX_ITERATIONS):
@@ -125,7 +125,7 @@ def _moved(
 
 def _miss(operator: StepOperator, trial: ContactSolution, level: FloatArray) -> _Miss:
     compression = level - operator.displacement(trial.force, trial.increment) - trial.compression
-    increment = operator.demanded(trial.force, trial.increment) - trial.increment
+    increment = operator.increments.demanded(trial.force, trial.increment) - trial.increment
     return _Miss(compression, increment, _size(compression, increment))
 
 

@@ -28,6 +28,8 @@ class Observation:
         Where the wheels stand.
     gauges : sequence of RailPoint or None
         Where bending moments are wanted; None is beyond the window of an endless track.
+    sleeper_mass : (supports,) float array, optional
+        What the sleepers weigh beyond the nominal one [kg].
     """
 
     def __init__(
@@ -37,8 +39,9 @@ class Observation:
         *,
         wheels: Sequence[RailPoint],
         gauges: Sequence[RailPoint | None],
+        sleeper_mass: FloatArray | None = None,
     ) -> None:
-        self._track, self._state = track, state
+        self._track, self._state, self._sleeper_mass = track, state, sleeper_mass
         self._wheels, self._gauges = wheels, gauges
 
     @cached_property
@@ -93,13 +96,16 @@ class Observation:
 
     @cached_property
     def ballast_force(self) -> FloatArray:
-        """Compression of the ballast under every sleeper [N], shape (supports,)."""
+        """Compression of the ballast under every sleeper [N], shape (supports,).
+
+        The inertia of ballast that moves along is part of it, that of the sleeper is not.
+        """
         parameters = self._track.parameters
         deformation, rate = self._mean_deformation
         return (
             parameters.ballast_stiffness * deformation
             + parameters.ballast_damping * rate
-            + self._state.increment[: parameters.supports]
+            + self._ballast_increment
         )
 
     @cached_property
@@ -129,6 +135,20 @@ class Observation:
     def window_position(self) -> FloatArray:
         """Where the window of an endless track begins [m], shape (1,); 0 for an ordinary one."""
         return self._state.offset * self._track.parameters.sleeper_spacing
+
+    @cached_property
+    def _ballast_increment(self) -> FloatArray:
+        """Increments of the ballast without the inertia of sleepers that differ, (supports,) [N].
+
+        Where no increment is accounted for, neither is that inertia.
+        """
+        track = self._track
+        increment = self._state.increment[: track.parameters.supports]
+        if self._sleeper_mass is None:
+            return increment
+        twice = track.eigenvalues * self._modal_rate
+        acceleration = np.real(track.shape[track.ballast_rows] @ twice)
+        return np.where(increment == 0.0, 0.0, increment - self._sleeper_mass * acceleration)
 
     @cached_property
     def _modal(self) -> ComplexArray:

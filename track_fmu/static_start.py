@@ -81,7 +81,7 @@ def static_start(
         if active.stiff and search.is_too_far(miss):
             increment = search.shorter()
             continue
-        tangent = active.stiffness(deformation, motion)
+        tangent = active.tangents(deformation, motion).stiffness
         matrix = np.eye(active.count) + tangent[:, None] * compliance
         change = _solve(matrix, miss)
         search.begin(increment, change, compliance, miss)
@@ -173,7 +173,7 @@ def _refuse_falling(track: ReducedTrack, active: ActiveComponents, deformation: 
         return
     own, supports = track.parameters, track.parameters.supports
     linear = np.where(active.number < supports, own.ballast_stiffness, own.pad_stiffness)
-    whole = active.stiffness(deformation, np.zeros_like(deformation)) + linear
+    whole = active.tangents(deformation, np.zeros_like(deformation)).stiffness + linear
     worst = int(np.argmin(whole / linear))
     if whole[worst] < -ROUNDING * linear[worst]:
         kind = "ballast" if active.number[worst] < supports else "pad"

@@ -9,6 +9,9 @@ import numpy as np
 
 from .beam_element import FloatArray
 
+LEAST_MASS = 0.1
+"""Of a sleeper over the nominal one; lighter ones would need shorter steps than others do."""
+
 
 def nominal_value(name: str) -> float:
     """What a support has that nothing is said of, by the name of an attribute or a parameter."""
@@ -32,6 +35,8 @@ class SupportFactors:
         Between the unloaded sleeper and its ballast [m]; ballast under a gap cannot pull.
     fastened : float array
         1 where the fastening holds the rail down, 0 where the rail can lift off its pad.
+    sleeper_mass : float array
+        Factors on the mass of the sleepers.
     repeat : bool
         Whether they begin anew behind the last support, without end; false: supports are nominal
         there.
@@ -39,7 +44,7 @@ class SupportFactors:
     Raises
     ------
     ValueError
-        For a value that is not a number of at least 0.
+        For a value that is not a number of at least 0, or of at least `LEAST_MASS`.
     """
 
     pad_stiffness: FloatArray
@@ -48,16 +53,18 @@ class SupportFactors:
     ballast_damping: FloatArray
     gap: FloatArray
     fastened: FloatArray
+    sleeper_mass: FloatArray
     repeat: bool = False
 
     def __post_init__(self) -> None:
         for name in self._properties():
             values = getattr(self, name)
-            wrong = np.flatnonzero(~(np.isfinite(values) & (values >= 0.0)))
+            least = LEAST_MASS if name == "sleeper_mass" else 0.0
+            wrong = np.flatnonzero(~(np.isfinite(values) & (values >= least)))
             if len(wrong):
                 raise ValueError(
                     f"track: {name} = {float(values[wrong[0]])!r} of support "
-                    f"{wrong[0] + 1} must be a finite number, at least 0"
+                    f"{wrong[0] + 1} must be a finite number, at least {least:g}"
                 )
 
     @classmethod
@@ -104,3 +111,8 @@ class SupportFactors:
         """Whether the ballast under any sleeper differs from the nominal one."""
         ones = (self.ballast_stiffness, self.ballast_damping)
         return bool((self.gap != 0.0).any()) or any(bool((values != 1.0).any()) for values in ones)
+
+    @property
+    def sleepers_differ(self) -> bool:
+        """Whether any sleeper is heavier or lighter than the nominal one."""
+        return bool((self.sleeper_mass != 1.0).any())

@@ -9,7 +9,7 @@ import numpy as np
 
 from .assembly import IntArray
 from .beam_element import FloatArray
-from .characteristics import Characteristic
+from .characteristics import Characteristic, Jet
 from .component_law import MemorylessLaw
 from .support_factors import SupportFactors
 
@@ -18,14 +18,22 @@ ONSET = 20e-6
 TINY = 1e-12  # m; below it a secant is a tangent
 
 
-class _Parts(NamedTuple):
-    """Elastic force, damping coefficient, their slopes, and whether the ballast is there."""
+class Parts(NamedTuple):
+    """Elastic force, damping coefficient, their slopes, and whether the sleeper can lift off."""
 
     load: FloatArray
     tangent: FloatArray
     damping: FloatArray
     damping_slope: FloatArray
     loose: FloatArray
+
+
+def secant(x: FloatArray, jet: Jet) -> tuple[FloatArray, FloatArray]:
+    """Secant stiffness [N/m] and its derivative [N/m2] of a load given at displacements x [m]."""
+    small = np.abs(x) < TINY
+    safe = np.where(small, 1.0, x)
+    stiffness = np.where(small, jet.tangent, jet.load / safe)
+    return stiffness, np.where(small, 0.5 * jet.curvature, (jet.tangent - stiffness) / safe)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,7 +77,7 @@ class TotalBallast(MemorylessLaw):
 
     def force(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
         """Force increment [N]; see `ComponentLaw.force`."""
-        parts = self._parts(deformation, support)
+        parts = self.parts(deformation, support)
         total = parts.load + parts.damping * rate
         total = np.where((parts.loose > 0.0) & (total < 0.0), 0.0, total)
         linear = self.linear_stiffness * deformation + self.linear_damping * rate
@@ -77,18 +85,19 @@ class TotalBallast(MemorylessLaw):
 
     def stiffness(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
         """Derivative by the deformation [N/m]; see `ComponentLaw.stiffness`."""
-        parts = self._parts(deformation, support)
+        parts = self.parts(deformation, support)
         by_deformation = parts.tangent + parts.damping_slope * rate
         lifted = (parts.loose > 0.0) & (parts.load + parts.damping * rate < 0.0)
         return np.where(lifted, 0.0, by_deformation) - self.linear_stiffness
 
     def damping(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
         """Derivative by the rate [N s/m]; see `ComponentLaw.damping`."""
-        parts = self._parts(deformation, support)
+        parts = self.parts(deformation, support)
         lifted = (parts.loose > 0.0) & (parts.load + parts.damping * rate < 0.0)
         return np.where(lifted, 0.0, parts.damping) - self.linear_damping
 
-    def _parts(self, deformation: FloatArray, support: IntArray) -> _Parts:
+    def parts(self, deformation: FloatArray, support: IntArray) -> Parts:
+        """What the whole force is made of at given deformations [m], shape (c,) each."""
         of, k, c = self.factors, self.linear_stiffness, self.linear_damping
         gap = of.gap[support]
         x = deformation - gap
@@ -97,10 +106,7 @@ class TotalBallast(MemorylessLaw):
         if self.tangent_damping:
             excess, slope = tangent, curvature
         else:
-            small = np.abs(x) < TINY
-            safe = np.where(small, 1.0, x)
-            excess = np.where(small, tangent, load / safe)
-            slope = np.where(small, 0.5 * curvature, (tangent - excess) / safe)
+            excess, slope = secant(x, Jet(load, tangent, curvature))
         damping = c + tau * excess
         damping_slope = tau * slope
         loose = np.where((gap > 0.0) | (not self.pulls), 1.0, 0.0)
@@ -113,7 +119,7 @@ class TotalBallast(MemorylessLaw):
         gone = (loose > 0.0) & ~(x > 0.0)
         stiff_factor = np.where(gone, 0.0, of.ballast_stiffness[support])
         damp_factor = np.where(gone, 0.0, of.ballast_damping[support])
-        return _Parts(
+        return Parts(
             stiff_factor * (k * x + load),
             stiff_factor * (k + tangent),
             damp_factor * damping,

@@ -203,6 +203,7 @@ class TrackModel:
             self._observation = Observation(
                 self.track,
                 self._state,
+                sleeper_mass=self._components.sleeper_mass(self.window.bays_before),
                 wheels=self.window.locate(self._state.position),
                 gauges=[self.window.find(position) for position in self.options.gauges],
             )

@@ -15,6 +15,7 @@ FMI = (
 COMMON = ("binary.c", "checksum.c", "create.c", "model.c", "state.c", "variables.c")
 ON_TRACK = (
     "basis.c",
+    "bed.c",
     "characteristic.c",
     "curve.c",
     "dense.c",

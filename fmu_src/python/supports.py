@@ -19,6 +19,7 @@ SUPPORT_PARAMETERS = (
     ("ballast_damping_factor", 1.0, "1", "Factor on the ballast damping under support {}"),
     ("gap", 0.0, "m", "Gap between the unloaded sleeper of support {} and its ballast"),
     ("fastened", True, "", "Whether the rail is fastened on support {}; false: it can lift off"),
+    ("sleeper_mass_factor", 1.0, "1", "Factor on the mass of the sleeper of support {}"),
 )
 """Name, start value, unit and description of what every support has of its own."""
 

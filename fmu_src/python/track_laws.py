@@ -14,6 +14,7 @@ from track_fmu.characteristics import (
     TableCharacteristic,
 )
 from track_fmu.component_law import ComponentLaw
+from track_fmu.heavy_ballast import HeavyBallast
 from track_fmu.pads import TotalPad
 from track_fmu.parameters import TrackParameters
 from track_fmu.preloaded_pad import PreloadedPad
@@ -47,6 +48,8 @@ def make_laws(
             "track: sleepers bend, but their ballast differs or does not pull; leave one of the "
             "two out"
         )
+    if track.sleeper != "rigid" and factors.sleepers_differ:
+        raise ValueError("track: sleepers bend, but their masses differ; leave one of the two out")
     return _ballast_law(track, parameters, factors), _pad_law(track, parameters, factors)
 
 
@@ -56,7 +59,9 @@ def _ballast_law(
     kind, pulls = parameters["ballast"], bool(parameters["ballast_pulls"])
     coefficients = {name: parameters[f"ballast_{name}"] for name in ("alpha", "beta", "delta")}
     tangent = bool(parameters["ballast_tangent_damping"])
-    if pulls and not factors.ballast_differs:
+    mass = parameters["ballast_mass"]
+    inertial = mass != 0.0 or factors.sleepers_differ
+    if pulls and not (factors.ballast_differs or inertial):
         if kind == "linear":
             return None
         if kind == "state_dependent" and not tangent:
@@ -80,13 +85,21 @@ def _ballast_law(
             f"track: ballast is {kind!r}; it must be 'state_dependent', 'linear', 'hyperbolic' or "
             "a .csv file"
         )
-    return TotalBallast(
+    bed = TotalBallast(
         characteristic=characteristic,
         linear_stiffness=track.ballast_stiffness,
         linear_damping=track.ballast_damping,
         factors=factors,
         tangent_damping=tangent,
         pulls=pulls,
+    )
+    if not inertial:
+        return bed
+    return HeavyBallast(
+        bed=bed,
+        mass=mass,
+        grows=bool(parameters["ballast_mass_grows"]),
+        nominal_sleeper=track.sleeper_mass,
     )
 
 

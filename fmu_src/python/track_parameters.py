@@ -145,6 +145,10 @@ def _law_parameters(structure: TrackParameters) -> list[Variable]:
           "[m] and any of the others' names as columns; empty: there is none")),
         ("supports_repeat", False, "", None,
          "Whether the table of supports begins anew behind its last one; false: nominal there"),
+        ("ballast_mass", 0.0, "kg", 0.0,
+         "Mass of the ballast that moves along under an unloaded rail seat"),
+        ("ballast_mass_grows", False, "", None,
+         "Whether that mass grows with the ballast's secant stiffness; false: it is constant"),
     )  # fmt: skip
     variables = [
         Variable(

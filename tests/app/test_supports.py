@@ -64,6 +64,7 @@ def test_tables_and_lists_are_multiplied_and_merged(tmp_path):
         ("number,gap\n1,-1\n", "line 2: gap is '-1', not a number of at least 0"),
         ("number,gap\n50,0\n", "names support 50 but the track has 49"),
         ("number,gap\n1,0\n1,0\n", "line 3: support 1 has a row already"),
+        ("number,sleeper_mass_factor\n7,0.05\n", r"0.05 of support 7 .* at least 0\.1"),
         ("number,gap\n1.5,0\n", "number is 1.5, not a whole number"),
         ("number,gap\n1\n", "has 1 values, not 2"),
     ],
@@ -124,11 +125,32 @@ def test_an_endless_passage_passes_its_supports_on_as_a_file(tmp_path):
         ("variation.missing_pads=a", "whole numbers from 1 on"),
         ("track.supports_repeat=true", "track.supports names no file that could be repeated"),
         ("track.pad=rubber", "one of linear or a FILE.csv"),
+        ("track.ballast_mass=-1", "track.ballast_mass"),
+        ("variation.sleeper_mass_deviation=0.6", "variation.sleeper_mass_deviation"),
     ],
 )
 def test_wrong_keys_are_refused(override, sentence):
     with pytest.raises(InputError, match=sentence):
         read_scenario(None, [override])
+
+
+def test_masses_of_sleepers_are_multiplied_and_have_random_numbers_of_their_own(tmp_path):
+    table = tmp_path / "supports.csv"
+    table.write_text("number,sleeper_mass_factor\n3,2\n")
+    keys = ["variation.sleeper_mass_deviation=0.2", "variation.pad_stiffness_deviation=0.2"]
+    alone = support_properties(read_scenario(None, keys))
+    own = support_properties(read_scenario(None, [*keys, f"track.supports={table}"]))
+    ratio = own["sleeper_mass_factor"] / alone["sleeper_mass_factor"]
+    assert ratio.tolist() == [2.0 if i == 2 else 1.0 for i in range(49)]
+    logarithms = [np.log(alone[f"{name}_factor"]) for name in ("sleeper_mass", "pad_stiffness")]
+    assert logarithms[0].std() == pytest.approx(0.2, rel=0.3)
+    assert not np.allclose(*logarithms)
+
+
+def test_masses_of_sleepers_that_bend_are_refused():
+    keys = ["track.sleeper=beam", "variation.sleeper_mass_deviation=0.2"]
+    with pytest.raises(InputError, match="sleepers bend, but their masses differ"):
+        check_laws(read_scenario(None, keys))
 
 
 def test_random_factors_have_the_deviation_and_the_correlation_asked_for():
@@ -155,6 +177,8 @@ def test_what_knows_the_paper_s_laws_only_says_so():
     require_paper_laws(read_scenario(), "a receptance")
     with pytest.raises(InputError, match=r"a receptance knows .* leave track.ballast out"):
         require_paper_laws(read_scenario(None, ["track.ballast=hyperbolic"]), "a receptance")
+    with pytest.raises(InputError, match=r"leave track\.ballast_mass out"):
+        require_paper_laws(read_scenario(None, ["track.ballast_mass=50"]), "a receptance")
     with pytest.raises(InputError, match=r"leave \[variation\] out"):
         require_paper_laws(read_scenario(None, ["variation.missing_pads=3"]), "a receptance")
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from .library import NativeError
-from .twins import assert_alike
+from .twins import assert_alike, scaled
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 STATIC_LOAD = 117_720.0
@@ -42,17 +42,20 @@ LAWS = {
     "soft and stiff beds": supports(
         ballast_stiffness_factor_5=0.4, ballast_stiffness_factor_6=2.0, ballast_damping_factor_7=3.0
     ),
+    "constant mass": {"ballast_mass": 200.0},
+    "mass on linear ballast": {"ballast_mass": 80.0, "ballast": "linear"},
+    "growing mass": {"ballast_mass": 60.0, "ballast_mass_grows": True},
+    "growing mass of a table without pull": {
+        "ballast": BALLAST,
+        "ballast_pulls": False,
+        "ballast_mass": 60.0,
+        "ballast_mass_grows": True,
+    },
+    "constant mass over gaps": {"ballast_mass": 100.0} | supports(gap_5=0.4e-3, gap_6=0.1e-3),
+    "light and heavy sleepers": supports(sleeper_mass_factor_5=0.4, sleeper_mass_factor_6=3.0),
+    "a heavy sleeper on viscoelastic pads": {"pad": PAD, **supports(sleeper_mass_factor_5=1.7)},
 }
 """Parameters by which a track differs from the paper's."""
-
-
-def scaled(states, step):
-    """Rates of forces as what these change in the step: forces are known to 1e-8 N."""
-    for name, mine, other in states:
-        if name == "increment_rate":
-            yield "force_change", mine * step, other * step
-        else:
-            yield name, mine, other
 
 
 def drive(pair, *, random, step, positions, forces):
@@ -89,8 +92,16 @@ def test_steps_with_contacts(contact_pair, short_track, values):
     assert_alike(pair.outputs(), relative=1e-11)
 
 
-def test_pads_travel_with_the_window_of_an_endless_track(track_pair, short_track):
-    values = {"pad": PAD, "ballast": "hyperbolic"}
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"pad": PAD, "ballast": "hyperbolic"},
+        {"ballast_mass": 100.0},
+        supports(sleeper_mass_factor_7=0.5, sleeper_mass_factor_10=3.0),
+    ],
+    ids=["pads", "mass", "sleepers"],
+)
+def test_laws_travel_with_the_window_of_an_endless_track(track_pair, short_track, values):
     pair = track_pair(short_track, endless=True, speed=SPEED, values=values)
     positions, forces = np.array([4.8, 3.0]), np.full(2, STATIC_LOAD)
     pair.start(positions, forces)
@@ -102,7 +113,9 @@ def test_pads_travel_with_the_window_of_an_endless_track(track_pair, short_track
     assert_alike(scaled(pair.states(), 2e-4), relative=1e-9)
 
 
-@pytest.mark.parametrize("name", ["viscoelastic pads, one without fastening", "gaps"])
+@pytest.mark.parametrize(
+    "name", ["viscoelastic pads, one without fastening", "gaps", "constant mass over gaps"]
+)
 def test_states_are_restored_bit_for_bit_and_travel(native, name):
     def go(track, count):
         for _ in range(count):
@@ -126,7 +139,10 @@ def test_states_are_restored_bit_for_bit_and_travel(native, name):
     assert track.state.tobytes() == end
 
 
-@pytest.mark.parametrize("name", ["no pull", "gaps", "viscoelastic pads", "table"])
+@pytest.mark.parametrize(
+    "name",
+    ["no pull", "gaps", "viscoelastic pads", "table", "growing mass", "light and heavy sleepers"],
+)
 def test_derivatives_are_those_of_differences(native, name):
     def moved(by):
         track.state = before
@@ -157,6 +173,8 @@ def test_derivatives_are_those_of_differences(native, name):
         ({"ballast": PAD}, "must be two finite numbers"),
         (supports(gap_3=-1e-3), "gap = -0.001 of support 3 must be a finite number"),
         (supports(pad_damping_factor_2=np.nan), "pad_damping_factor = nan of support 2"),
+        (supports(sleeper_mass_factor_3=0.05), "0.05 of support 3 must be .* at least 0.1"),
+        ({"ballast_mass": -1.0}, "mass = -1 kg must be"),
         ({"ballast_beta": -1e17}, "all loads on ballast and pads rise"),
     ],
 )

@@ -61,6 +61,15 @@ def assert_alike(rows, *, relative=AGREEMENT, parts=1):
         np.testing.assert_allclose(found, expected, rtol=0.0, atol=limit, err_msg=name)
 
 
+def scaled(states, step):
+    """Rates of forces as what these change in the step: forces are known to 1e-8 N."""
+    for name, mine, other in states:
+        if name == "increment_rate":
+            yield "force_change", mine * step, other * step
+        else:
+            yield name, mine, other
+
+
 @lru_cache(maxsize=4)
 def reduced_track(parameters, mode_pairs, *, residual_flexibility=True):
     matrices = assemble(parameters)

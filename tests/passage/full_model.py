@@ -29,18 +29,20 @@ def haversine(distance, length=0.1, depth=0.9e-3):
     return 0.5 * depth * (1.0 + np.cos(np.pi * a)) if a < 1.0 else 0.0
 
 
-def varied(parameters, pads, beds):
-    """Matrices of a track with factors on its pads and ballast beds."""
+def varied(parameters, pads, beds, masses):
+    """Matrices of a track with factors on its pads and ballast beds, and masses on its sleepers."""
     matrices = assemble(parameters)
-    pad, bed = (
+    pad, bed, mass = (
         part @ sp.diags_array(factors) @ part.T
         for part, factors in (
             (matrices.pad_incidence, pads - 1.0),
             (matrices.ballast_incidence, beds - 1.0),
+            (matrices.ballast_incidence, masses),
         )
     )
     return replace(
         matrices,
+        mass=sp.csc_array(matrices.mass + mass),
         stiffness=sp.csc_array(
             matrices.stiffness + parameters.pad_stiffness * pad + parameters.ballast_stiffness * bed
         ),
@@ -79,21 +81,31 @@ def local_beds(parameters, numbering):
 
 
 class FullModel:
-    """The track; pads and ballast beds may have factors, and sleepers gaps under them.
+    """The track; pads and ballast beds may have factors, sleepers gaps under them and more mass.
 
-    Factors are in the matrices. Under a gap there is no linear ballast: all of its force is in the
-    law then.
+    Factors and masses [kg] are in the matrices. Under a gap there is no linear ballast: all of its
+    force is in the law then.
     """
 
     def __init__(
-        self, *, state_dependent=True, local=False, pads=None, beds=None, gaps=None, **values
+        self,
+        *,
+        state_dependent=True,
+        local=False,
+        pads=None,
+        beds=None,
+        gaps=None,
+        masses=0.0,
+        **values,
     ):
         self.parameters = TrackParameters(**values)
         ones = np.ones(self.parameters.supports)
         self.factors = 1.0 if beds is None else beds
         self.gaps = np.zeros(1) if gaps is None else gaps
         linear_beds = np.where(self.gaps > 0.0, 0.0, self.factors) * ones
-        self.matrices = varied(self.parameters, ones if pads is None else pads, linear_beds)
+        self.matrices = varied(
+            self.parameters, ones if pads is None else pads, linear_beds, masses * ones
+        )
         self.scale = 1.0 if state_dependent else 0.0
         self.sleeper = self.matrices.numbering.sleeper
         self.size = self.matrices.mass.shape[0]

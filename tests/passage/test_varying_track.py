@@ -9,6 +9,7 @@ import pytest
 from railcosim.passage import run_passage
 from railcosim.scenario_file import read_scenario
 from railcosim.support_values import support_properties
+from track_fmu.parameters import TrackParameters
 
 from .full_model import FullModel, haversine
 from .reference_case import SPEED, STATIC_LOAD
@@ -29,6 +30,9 @@ CASES = {
     ),
     "missing pads": ("variation.missing_pads=26",),
     "hanging sleepers": ("variation.hanging_sleepers=25-26", "variation.hanging_gap=0.5e-3"),
+    "sleeper masses": ("variation.sleeper_mass_deviation=0.3",),
+    "moving ballast": ("track.ballast_mass=200",),
+    "moving ballast under beams": ("track.sleeper=beam", "track.ballast_mass=100"),
 }
 
 
@@ -38,8 +42,13 @@ def compared(keys, supports, departure=DEPARTURE):
     every = (*way, *keys, f"track.supports_per_wheel={supports}", "master.tolerance=5e-4")
     scenario = read_scenario(None, every)
     own = support_properties(scenario)
+    more = (own["sleeper_mass_factor"] - 1.0) * TrackParameters().sleeper_mass
     full = FullModel(
-        pads=own["pad_stiffness_factor"], beds=own["ballast_stiffness_factor"], gaps=own["gap"]
+        pads=own["pad_stiffness_factor"],
+        beds=own["ballast_stiffness_factor"],
+        gaps=own["gap"],
+        masses=more + scenario.track.ballast_mass,
+        sleeper=scenario.track.sleeper,
     )
     expected = full.run(
         speed=SPEED,

@@ -27,11 +27,8 @@ static void find_answer(const rc_track *track, const rc_contact_work *work)
     const rc_operator *op = &track->operator_;
     const size_t wheels = track->basis.wheels, count = op->active.count, stride = op->active.stride;
     for (size_t j = 0; j < wheels; ++j) {
-        const double *pressed = op->active_contact + j * stride, *rate = op->rate_contact + j * stride;
-        double *response = work->response + j * stride;
-        for (size_t a = 0; a < count; ++a)
-            work->demand[a] = op->stiffness[a] * pressed[a] + op->damping[a] * rate[a];
-        rc_transform(response, op->correction, work->demand, count, stride);
+        rc_demand_by_force(track, &op->tangents, j, work->demand);
+        rc_transform(work->response + j * stride, op->correction, work->demand, count, stride);
     }
     for (size_t i = 0; i < wheels; ++i) {
         const double *line = op->contact_active + i * stride;

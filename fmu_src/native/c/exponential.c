@@ -102,6 +102,13 @@ static void fill(rc_exponential *to, const rc_basis *basis)
     }
 }
 
+/* To those of the rate: w lambda (lambda drive + 1) and likewise of `end`. */
+static void fill_accelerations(rc_exponential *to, const rc_basis *basis)
+{
+    rc_multiply(to->drive_acceleration, basis->eigenvalues, to->drive_rate, basis->half);
+    rc_multiply(to->end_acceleration, basis->eigenvalues, to->end_rate, basis->half);
+}
+
 static rc_exponential *find(rc_exponentials *known, double step, int linear)
 {
     rc_exponential *oldest = &known->slots[0];
@@ -118,7 +125,8 @@ static rc_exponential *find(rc_exponentials *known, double step, int linear)
 }
 
 const rc_exponential *rc_coefficients(rc_exponentials *known, const rc_basis *basis, double step,
-                                      int linear, const rc_active *active, double *scratch)
+                                      int linear, int inertial, const rc_active *active,
+                                      double *scratch)
 {
     rc_exponential *slot = find(known, step, linear);
     slot->used = ++known->clock;
@@ -128,12 +136,17 @@ const rc_exponential *rc_coefficients(rc_exponentials *known, const rc_basis *ba
         slot->step = step;
         slot->linear = linear;
         fill(slot, basis);
+        if (inertial)
+            fill_accelerations(slot, basis);
     }
     if (fresh || !rc_same_active(&slot->active, active)) {
         rc_copy_active(&slot->active, active);
         rc_modal_coupling(slot->coupling, active, slot->end_dual, basis->half, scratch);
         rc_add_residual(slot->coupling, active, basis);
         rc_modal_coupling(slot->rate_coupling, active, slot->end_rate, basis->half, scratch);
+        if (inertial)
+            rc_modal_coupling(slot->acceleration_coupling, active, slot->end_acceleration,
+                              basis->half, scratch);
     }
     return slot;
 }

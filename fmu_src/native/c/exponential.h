@@ -20,8 +20,10 @@ typedef struct {
     double *drive;               /* of a contact force: end, or start + end if it is held */
     double *drive_dual, *drive_rate;   /* w drive, w (lambda drive + 1): displacement and rate */
     double *end_dual, *end_rate;       /* likewise for `end` */
+    double *drive_acceleration, *end_acceleration; /* w lambda (lambda drive + 1); if asked for */
     rc_active active;                  /* for which the following holds */
     double *coupling, *rate_coupling;  /* (stride, stride): per force increment at the end */
+    double *acceleration_coupling;     /* likewise, if accelerations are asked for */
 } rc_exponential;
 
 typedef struct {
@@ -30,9 +32,10 @@ typedef struct {
     uint64_t clock;
 } rc_exponentials;
 
-/* The coefficients of a step size, worked out only if they are not remembered. `scratch` as for
- * rc_modal_coupling. */
+/* The coefficients of a step size, worked out only if they are not remembered; `inertial` asks for
+ * those of accelerations. `scratch` as for rc_modal_coupling. */
 const rc_exponential *rc_coefficients(rc_exponentials *known, const rc_basis *basis, double step,
-                                      int linear, const rc_active *active, double *scratch);
+                                      int linear, int inertial, const rc_active *active,
+                                      double *scratch);
 
 #endif

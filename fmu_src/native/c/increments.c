@@ -10,25 +10,44 @@
 #define MOST_SWEEPS 30
 #define MOST_HALVINGS 6
 
-/* Deformations at the end of the step under given forces and increments. */
-static void deform(const rc_operator *op, const double *forces, size_t wheels,
-                   const double *increment, double *deformation)
+/* A quantity of the components at the end of the step: free, per contact force, per increment. */
+static void follow(const rc_track *track, const double *free, const double *by_force,
+                   const double *by_increment, const double *forces, const double *increment,
+                   double *value)
 {
-    const size_t stride = op->active.stride;
-    memcpy(deformation, op->free_active, stride * sizeof(double));
-    rc_add_transformed(deformation, 1.0, op->active_contact, forces, wheels, stride);
-    rc_add_transformed(deformation, -1.0, op->exponential->coupling, increment, op->active.count,
-                       stride);
+    const rc_active *active = &track->operator_.active;
+    memcpy(value, free, active->stride * sizeof(double));
+    rc_add_transformed(value, 1.0, by_force, forces, track->basis.wheels, active->stride);
+    rc_add_transformed(value, -1.0, by_increment, increment, active->count, active->stride);
 }
 
-static void change_rates(const rc_operator *op, const double *forces, size_t wheels,
-                         const double *increment, double *rate)
+/* The motion of the components under given forces and increments, kept at the beginning of
+ * track->small. */
+#define MOTION_ROWS 3
+static rc_motion move(const rc_track *track, const double *forces, const double *increment)
 {
-    const size_t stride = op->active.stride;
-    memcpy(rate, op->free_rate, stride * sizeof(double));
-    rc_add_transformed(rate, 1.0, op->rate_contact, forces, wheels, stride);
-    rc_add_transformed(rate, -1.0, op->exponential->rate_coupling, increment, op->active.count,
-                       stride);
+    const rc_operator *op = &track->operator_;
+    const rc_exponential *step = op->exponential;
+    double *deformation = track->small, *rate = deformation + op->active.stride;
+    double *acceleration = track->laws.inertial ? rate + op->active.stride : NULL;
+    follow(track, op->free_active, op->active_contact, step->coupling, forces, increment,
+           deformation);
+    follow(track, op->free_rate, op->rate_contact, step->rate_coupling, forces, increment, rate);
+    if (acceleration != NULL)
+        follow(track, op->free_acceleration, op->acceleration_contact,
+               step->acceleration_coupling, forces, increment, acceleration);
+    return (rc_motion){deformation, rate, acceleration};
+}
+
+/* The same without rates: the tangents of the plain law hold at rest. */
+static rc_motion stop(const rc_track *track, const double *forces, const double *increment)
+{
+    const rc_operator *op = &track->operator_;
+    double *deformation = track->small, *rate = deformation + op->active.stride;
+    follow(track, op->free_active, op->active_contact, op->exponential->coupling, forces,
+           increment, deformation);
+    memset(rate, 0, op->active.stride * sizeof(double));
+    return (rc_motion){deformation, rate, NULL};
 }
 
 static void gather(const rc_active *active, const double *all, double *chosen)
@@ -37,21 +56,35 @@ static void gather(const rc_active *active, const double *all, double *chosen)
         chosen[a] = all[active->number[a]];
 }
 
-/* (1 + k A + d R), whose inverse, transposed, is left in `matrix`. */
-static int invert_jacobian(rc_track *track, const double *stiffness, const double *damping,
-                           double *matrix)
+/* (1 + k A + d R + m B), whose inverse, transposed, is left in `matrix`. */
+static int invert_jacobian(rc_track *track, const rc_tangents *tangents, double *matrix)
 {
     const rc_operator *op = &track->operator_;
     const size_t count = op->active.count, stride = op->active.stride;
     const double *coupling = op->exponential->coupling, *rates = op->exponential->rate_coupling;
+    const double *accelerations = op->exponential->acceleration_coupling;
     memset(matrix, 0, count * stride * sizeof(double));
     for (size_t b = 0; b < count; ++b) { /* by columns: the transposed matrix by rows */
         for (size_t a = 0; a < count; ++a)
-            matrix[b * stride + a] = stiffness[a] * coupling[b * stride + a] +
-                                     damping[a] * rates[b * stride + a];
+            matrix[b * stride + a] = tangents->stiffness[a] * coupling[b * stride + a] +
+                                     tangents->damping[a] * rates[b * stride + a];
+        for (size_t a = 0; a < count && track->laws.inertial; ++a)
+            matrix[b * stride + a] += tangents->mass[a] * accelerations[b * stride + a];
         matrix[b * stride + b] += 1.0;
     }
     return rc_invert(matrix, count, stride, track->pivot);
+}
+
+void rc_demand_by_force(const rc_track *track, const rc_tangents *tangents, size_t wheel,
+                        double *demand)
+{
+    const rc_operator *op = &track->operator_;
+    const size_t line = wheel * op->active.stride;
+    const double *pressed = op->active_contact + line, *rate = op->rate_contact + line;
+    for (size_t a = 0; a < op->active.count; ++a)
+        demand[a] = tangents->stiffness[a] * pressed[a] + tangents->damping[a] * rate[a];
+    for (size_t a = 0; a < op->active.count && track->laws.inertial; ++a)
+        demand[a] += tangents->mass[a] * op->acceleration_contact[line + a];
 }
 
 /* What pads remember at the beginning of the step. */
@@ -66,19 +99,16 @@ void rc_linearise_increments(rc_track *track, const double *forces, const double
 {
     rc_operator *op = &track->operator_;
     const size_t count = op->active.count, stride = op->active.stride;
-    const size_t wheels = track->basis.wheels;
-    double *first = track->small, *deformation = first + stride, *rate = deformation + stride;
+    double *first = track->small + MOTION_ROWS * stride;
     const rc_pad_memory memory = remembered(track);
     if (increment == NULL) {
         gather(&op->active, rc_view_state(&track->basis, op->start).increment, first);
         increment = first;
     }
-    deform(op, forces, wheels, increment, deformation);
-    if (rc_is_stiff(&track->laws))
-        change_rates(op, forces, wheels, increment, rate);
-    rc_law_tangents(&track->laws, &op->active, &memory, deformation, rate, 0, op->stiffness,
-                    op->damping);
-    if (!invert_jacobian(track, op->stiffness, op->damping, op->correction))
+    const rc_motion motion = rc_is_stiff(&track->laws) ? move(track, forces, increment)
+                                                       : stop(track, forces, increment);
+    rc_law_tangents(&track->laws, &op->active, &memory, &motion, 0, &op->tangents);
+    if (!invert_jacobian(track, &op->tangents, op->correction))
         for (size_t k = 0; k < count * stride; ++k)
             op->correction[k] = NAN; /* the sweeps will not converge, which is told */
 }
@@ -86,23 +116,18 @@ void rc_linearise_increments(rc_track *track, const double *forces, const double
 void rc_demand_increments(rc_track *track, const double *forces, const double *increment,
                           double *demanded)
 {
-    const rc_operator *op = &track->operator_;
-    double *deformation = track->small, *rate = deformation + op->active.stride;
-    deform(op, forces, track->basis.wheels, increment, deformation);
-    change_rates(op, forces, track->basis.wheels, increment, rate);
+    const rc_motion motion = move(track, forces, increment);
     const rc_pad_memory memory = remembered(track);
-    rc_law_forces(&track->laws, &op->active, &memory, deformation, rate, demanded);
+    rc_law_forces(&track->laws, &track->operator_.active, &memory, &motion, demanded);
 }
 
 void rc_remember_pads(rc_track *track, const double *forces, rc_track_state *state)
 {
     const rc_operator *op = &track->operator_;
-    double *deformation = track->small, *rate = deformation + op->active.stride;
     const rc_pad_memory memory = remembered(track);
-    deform(op, forces, track->basis.wheels, op->increment, deformation);
-    change_rates(op, forces, track->basis.wheels, op->increment, rate);
+    const rc_motion motion = move(track, forces, op->increment);
     memset(state->branch_force, 0, 3 * track->basis.supports * sizeof(double));
-    rc_law_memories(&track->laws, &op->active, &memory, deformation, rate, state->branch_force,
+    rc_law_memories(&track->laws, &op->active, &memory, &motion, state->branch_force,
                     state->compression, state->known);
 }
 
@@ -122,8 +147,8 @@ static int solve_stiffly(rc_track *track, const double *forces)
 {
     rc_operator *op = &track->operator_;
     const size_t count = op->active.count, stride = op->active.stride;
-    double *increment = op->increment, *miss = track->small + 3 * stride, *change = miss + stride;
-    double *new = change + stride, *new_miss = new + stride;
+    double *increment = op->increment, *miss = track->small + (MOTION_ROWS + 1) * stride;
+    double *change = miss + stride, *new = change + stride, *new_miss = new + stride;
     double size = miss_increments(track, forces, increment, miss);
     for (int sweep = 0; sweep < MOST_SWEEPS && isfinite(size); ++sweep) {
         rc_linearise_increments(track, forces, increment);
@@ -156,7 +181,7 @@ int rc_solve_increments(rc_track *track, const double *forces)
     rc_operator *op = &track->operator_;
     const size_t count = op->active.count, stride = op->active.stride;
     double *increment = op->increment;
-    double *change = track->small + 2 * stride, *defect = change + stride;
+    double *change = track->small + MOTION_ROWS * stride, *defect = change + stride;
     const rc_track_state start = rc_view_state(&track->basis, op->start);
     gather(&op->active, start.increment, increment);
     if (rc_is_stiff(&track->laws))
@@ -188,20 +213,19 @@ int rc_change_increments(rc_track *track, const double *forces, const double *fo
     const rc_operator *op = &track->operator_;
     const size_t count = op->active.count, stride = op->active.stride;
     const size_t wheels = track->basis.wheels;
-    double *deformation = track->small, *rate = deformation + stride;
-    double *tangent = rate + stride, *damping = tangent + stride, *demand = damping + stride;
-    double *matrix = change + stride;
-    deform(op, forces, wheels, op->increment, deformation);
-    change_rates(op, forces, wheels, op->increment, rate);
+    double *own = track->small + MOTION_ROWS * stride;
+    const rc_tangents tangents = {own, own + stride, own + 2 * stride};
+    double *by_force = own + 3 * stride, *demand = own + 4 * stride, *matrix = change + stride;
+    const rc_motion motion = move(track, forces, op->increment);
     const rc_pad_memory memory = remembered(track);
-    rc_law_tangents(&track->laws, &op->active, &memory, deformation, rate, 1, tangent, damping);
-    for (size_t a = 0; a < count; ++a) {
-        demand[a] = 0.0;
-        for (size_t j = 0; j < wheels; ++j)
-            demand[a] += (tangent[a] * op->active_contact[j * stride + a] +
-                          damping[a] * op->rate_contact[j * stride + a]) * force_change[j];
+    rc_law_tangents(&track->laws, &op->active, &memory, &motion, 1, &tangents);
+    memset(demand, 0, count * sizeof(double));
+    for (size_t j = 0; j < wheels; ++j) {
+        rc_demand_by_force(track, &tangents, j, by_force);
+        for (size_t a = 0; a < count; ++a)
+            demand[a] += by_force[a] * force_change[j];
     }
-    if (!invert_jacobian(track, tangent, damping, matrix))
+    if (!invert_jacobian(track, &tangents, matrix))
         return 0;
     rc_transform(change, matrix, demand, count, stride);
     return 1;

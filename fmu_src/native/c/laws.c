@@ -2,48 +2,14 @@
 
 #include <math.h>
 
-#define ONSET 20e-6 /* m; in which damping sets in where a sleeper or the rail can lift off */
-#define TINY 1e-12  /* m; below it a secant is a tangent */
+#define ONSET 20e-6 /* m; in which damping sets in where the rail can lift off */
 #define SMALL 1e-4  /* ratio of step and relaxation time */
 
-/* A whole force and its derivatives. */
-typedef struct {
-    double total, by_deformation, by_rate;
-} response;
+typedef rc_response response;
 
 static response nothing(void)
 {
-    return (response){0.0, 0.0, 0.0};
-}
-
-static response press_ballast(const rc_laws *laws, const rc_support *own, double deformation,
-                              double rate)
-{
-    const double k = laws->ballast_stiffness, c = laws->ballast_damping, tau = c / k;
-    const double gap = own->of[RC_GAP], x = deformation - gap;
-    const int loose = gap > 0.0 || !laws->pulls;
-    if (loose && !(x > 0.0))
-        return nothing();
-    const rc_jet bed = rc_characteristic_at(&laws->bed, x);
-    double excess = bed.tangent, slope = bed.curvature;
-    if (!laws->tangent_damping) {
-        const int small = fabs(x) < TINY;
-        excess = small ? bed.tangent : bed.load / x;
-        slope = small ? 0.5 * bed.curvature : (bed.tangent - excess) / x;
-    }
-    double damping = c + tau * excess, damping_slope = tau * slope;
-    if (loose && x < ONSET) {
-        const double share = x / ONSET;
-        damping_slope = share * damping_slope + damping / ONSET;
-        damping = share * damping;
-    }
-    const double spring = own->of[RC_BALLAST_STIFFNESS_FACTOR];
-    const double damper = own->of[RC_BALLAST_DAMPING_FACTOR];
-    const response whole = {.total = spring * (k * x + bed.load) + damper * damping * rate,
-                            .by_deformation =
-                                spring * (k + bed.tangent) + damper * damping_slope * rate,
-                            .by_rate = damper * damping};
-    return loose && whole.total < 0.0 ? nothing() : whole;
+    return (response){0.0, 0.0, 0.0, 0.0};
 }
 
 static response press_pad(const rc_laws *laws, const rc_support *own, double x, double rate)
@@ -137,8 +103,9 @@ static const rc_support *support_of(const rc_laws *laws, const rc_active *active
 
 /* The increment of one component: what the linear track lacks. */
 static response respond(const rc_laws *laws, const rc_active *active, const rc_pad_memory *memory,
-                        size_t a, double x, double rate, int exact)
+                        const rc_motion *motion, size_t a, int exact)
 {
+    const double x = motion->deformation[a], rate = motion->rate[a];
     const size_t place = place_of(laws, active, a);
     const rc_support *own = support_of(laws, active, place);
     if (active->number[a] >= laws->supports) {
@@ -155,50 +122,59 @@ static response respond(const rc_laws *laws, const rc_active *active, const rc_p
                           .by_deformation = exact ? rc_ballast_tangent(&laws->plain, x, rate)
                                                   : rc_ballast_stiffness(&laws->plain, x),
                           .by_rate = rc_ballast_damping(&laws->plain, x)};
-    response ballast = press_ballast(laws, own, x, rate);
+    response ballast =
+        motion->acceleration == NULL
+            ? rc_press_ballast(laws, own, x, rate)
+            : rc_press_heavy_ballast(laws, own, x, rate, motion->acceleration[a]);
     ballast.total -= laws->ballast_stiffness * x + laws->ballast_damping * rate;
     ballast.by_deformation -= laws->ballast_stiffness;
     ballast.by_rate -= laws->ballast_damping;
+    if (motion->acceleration != NULL) {
+        const double more = rc_more_mass(laws, own);
+        ballast.total += more * motion->acceleration[a];
+        ballast.by_acceleration += more;
+    }
     return ballast;
 }
 
 void rc_law_forces(const rc_laws *laws, const rc_active *active, const rc_pad_memory *memory,
-                   const double *deformation, const double *rate, double *force)
+                   const rc_motion *motion, double *force)
 {
     if (!rc_is_stiff(laws)) {
         for (size_t a = 0; a < active->count; ++a)
-            force[a] = rc_ballast_force(&laws->plain, deformation[a], rate[a]);
+            force[a] = rc_ballast_force(&laws->plain, motion->deformation[a], motion->rate[a]);
         return;
     }
     for (size_t a = 0; a < active->count; ++a)
-        force[a] = respond(laws, active, memory, a, deformation[a], rate[a], 0).total;
+        force[a] = respond(laws, active, memory, motion, a, 0).total;
 }
 
 void rc_law_tangents(const rc_laws *laws, const rc_active *active, const rc_pad_memory *memory,
-                     const double *deformation, const double *rate, int exact, double *stiffness,
-                     double *damping)
+                     const rc_motion *motion, int exact, const rc_tangents *tangents)
 {
     for (size_t a = 0; a < active->count; ++a) {
-        const response at =
-            respond(laws, active, memory, a, deformation[a], rate[a], exact);
-        stiffness[a] = at.by_deformation;
-        damping[a] = at.by_rate;
+        const response at = respond(laws, active, memory, motion, a, exact);
+        tangents->stiffness[a] = at.by_deformation;
+        tangents->damping[a] = at.by_rate;
+        if (motion->acceleration != NULL)
+            tangents->mass[a] = at.by_acceleration;
     }
 }
 
 void rc_law_memories(const rc_laws *laws, const rc_active *active, const rc_pad_memory *memory,
-                     const double *deformation, const double *rate, double *branch_force,
-                     double *compression, double *known)
+                     const rc_motion *motion, double *branch_force, double *compression,
+                     double *known)
 {
     for (size_t a = 0; a < active->count; ++a) {
         if (active->number[a] < laws->supports)
             continue;
         const size_t place = place_of(laws, active, a);
         const rc_support *own = support_of(laws, active, place);
-        const double x = compress(own, deformation[a]);
+        const double x = compress(own, motion->deformation[a]);
         const double load = rc_pad_at_rest(&laws->viscoelastic, x).load;
-        branch_force[place] = memory->step > 0.0 ? relax(laws, own, memory, place, x).total
-                                                 : creep(laws, own, load, rate[a]).total;
+        const response branch = memory->step > 0.0 ? relax(laws, own, memory, place, x)
+                                                   : creep(laws, own, load, motion->rate[a]);
+        branch_force[place] = branch.total;
         compression[place] = x;
         known[place] = 1.0;
     }

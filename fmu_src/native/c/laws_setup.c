@@ -25,6 +25,11 @@ static int beds_are_alike(const rc_laws *laws)
     return rc_are_alike(&laws->line, RC_BALLAST_STIFFNESS_FACTOR, RC_FASTENED);
 }
 
+static int sleepers_are_alike(const rc_laws *laws)
+{
+    return rc_are_alike(&laws->line, RC_SLEEPER_MASS_FACTOR, RC_SLEEPER_MASS_FACTOR + 1);
+}
+
 /* The value of a property of a support that the parameters give, counted from 0. */
 static double given(rc_model *model, size_t property, size_t support)
 {
@@ -36,14 +41,8 @@ static rc_status take_supports(rc_model *model, const rc_basis *basis, rc_suppor
 {
     int differ = 0;
     for (size_t p = 0; p < RC_PROPERTY_COUNT; ++p)
-        for (size_t s = 0; s < basis->supports; ++s) {
-            const double value = given(model, p, s);
-            if (!(isfinite(value) && value >= 0.0))
-                return rc_fail(model, RC_ERROR, "track: %s = %g of support %zu must be a finite "
-                                                "number, at least 0",
-                               RC_PROPERTIES[p].name, value, s + 1);
-            differ |= value != RC_PROPERTIES[p].nominal;
-        }
+        for (size_t s = 0; s < basis->supports; ++s)
+            differ |= given(model, p, s) != RC_PROPERTIES[p].nominal;
     if (!differ)
         return RC_OK;
     if (!rc_claim_supports(line, basis->supports))
@@ -51,6 +50,20 @@ static rc_status take_supports(rc_model *model, const rc_basis *basis, rc_suppor
     for (size_t s = 0; s < basis->supports; ++s)
         for (size_t p = 0; p < RC_PROPERTY_COUNT; ++p)
             line->known[s].of[p] = given(model, p, s);
+    return RC_OK;
+}
+
+/* Refuses what no support has. */
+static rc_status check_supports(rc_model *model, const rc_support_line *line)
+{
+    for (size_t p = 0; p < RC_PROPERTY_COUNT; ++p)
+        for (size_t s = 0; s < line->count; ++s) {
+            const double value = line->known[s].of[p], least = RC_PROPERTIES[p].least;
+            if (!(isfinite(value) && value >= least))
+                return rc_fail(model, RC_ERROR, "track: %s = %g of support %zu must be a finite "
+                                                "number, at least %g",
+                               RC_PROPERTIES[p].name, value, s + 1, least);
+        }
     return RC_OK;
 }
 
@@ -62,18 +75,18 @@ static rc_status read_supports(rc_model *model, const rc_basis *basis, rc_suppor
     const int endless = *rc_values(model, ENDLESS) != 0.0;
     if (take_supports(model, basis, line) != RC_OK)
         return RC_ERROR;
-    if (path[0] == '\0')
-        return repeat ? rc_fail(model, RC_ERROR, "track: supports_repeat is true, but supports names "
-                                                 "no table that could be repeated")
-                      : RC_OK;
-    if (line->count > 0)
+    if (path[0] == '\0' && repeat)
+        return rc_fail(model, RC_ERROR, "track: supports_repeat is true, but supports names no table "
+                                        "that could be repeated");
+    if (path[0] != '\0' && line->count > 0)
         return rc_fail(model, RC_ERROR, "track: supports names the table %s, but support[i].* are "
                                         "given, too; leave one of the two out", path);
-    if (!rc_read_supports(line, path, basis->spacing, endless ? 0 : basis->supports, model->message,
-                          RC_MESSAGE_SIZE))
+    if (path[0] != '\0' && !rc_read_supports(line, path, basis->spacing,
+                                             endless ? 0 : basis->supports, model->message,
+                                             RC_MESSAGE_SIZE))
         return RC_ERROR;
     line->repeat = repeat;
-    return RC_OK;
+    return check_supports(model, line);
 }
 
 static rc_status read_bed(rc_model *model, rc_laws *laws, const char *kind)
@@ -118,11 +131,16 @@ static rc_status read_ballast(rc_model *model, rc_laws *laws)
     if (polynomial && !(isfinite(law->alpha) && isfinite(law->beta) && isfinite(law->delta)))
         return rc_fail(model, RC_ERROR, "ballast: alpha = %g, beta = %g, delta = %g must be finite "
                                         "numbers", law->alpha, law->beta, law->delta);
-    const int uniform = beds_are_alike(laws);
-    laws->ballast = !(uniform && laws->pulls)              ? RC_TOTAL
-                    : linear                               ? RC_NO_INCREMENT
-                    : polynomial && !laws->tangent_damping ? RC_PLAIN
-                                                           : RC_TOTAL;
+    laws->ballast_mass = *rc_values(model, BALLAST_MASS);
+    laws->mass_grows = *rc_values(model, BALLAST_MASS_GROWS) != 0.0;
+    if (!(isfinite(laws->ballast_mass) && laws->ballast_mass >= 0.0))
+        return rc_fail(model, RC_ERROR, "ballast: mass = %g kg must be a finite number, at least 0",
+                       laws->ballast_mass);
+    laws->inertial = laws->ballast_mass != 0.0 || !sleepers_are_alike(laws);
+    laws->ballast = !(beds_are_alike(laws) && laws->pulls) || laws->inertial ? RC_TOTAL
+                    : linear                                                 ? RC_NO_INCREMENT
+                    : polynomial && !laws->tangent_damping                   ? RC_PLAIN
+                                                                             : RC_TOTAL;
     return laws->ballast == RC_TOTAL ? read_bed(model, laws, kind) : RC_OK;
 }
 
@@ -164,6 +182,9 @@ static rc_status check_track(rc_model *model, const rc_track *track)
     if (track->basis.sleeper_shape != NULL && !(beds_are_alike(laws) && laws->pulls))
         return rc_fail(model, RC_ERROR, "track: sleepers bend, but their ballast differs or does "
                                         "not pull; leave one of the two out");
+    if (track->basis.sleeper_shape != NULL && !sleepers_are_alike(laws))
+        return rc_fail(model, RC_ERROR, "track: sleepers bend, but their masses differ; leave one "
+                                        "of the two out");
     return RC_OK;
 }
 
@@ -176,7 +197,8 @@ rc_status rc_read_laws(rc_model *model, rc_track *track)
                       .ballast_stiffness = basis->ballast_stiffness,
                       .ballast_damping = basis->ballast_damping,
                       .pad_stiffness = basis->pad_stiffness,
-                      .pad_damping = basis->pad_damping};
+                      .pad_damping = basis->pad_damping,
+                      .sleeper_mass = basis->sleeper_mass[0]};
     if (read_supports(model, basis, &laws->line) != RC_OK || read_ballast(model, laws) != RC_OK ||
         read_pads(model, laws) != RC_OK) {
         rc_free_laws(laws);

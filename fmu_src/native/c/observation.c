@@ -183,6 +183,20 @@ static double gauge_moment(const view *at, double position)
     return bending_moment(at, &point);
 }
 
+/* Takes the inertia of sleepers that differ out of the forces on the ballast. */
+static void leave_out_sleepers(rc_track *track, const view *at, double *forces)
+{
+    const rc_basis *basis = &track->basis;
+    const rc_laws *laws = &track->laws;
+    const ptrdiff_t before = (ptrdiff_t)*at->state->offset;
+    double *twice = track->duals;
+    rc_multiply_duals(twice, basis->eigenvalues, at->modal_rate, basis->half);
+    for (size_t s = 0; s < basis->supports; ++s)
+        if (at->state->increment[s] != 0.0) /* where it is accounted for */
+            forces[s] -= rc_more_mass(laws, rc_support_at(&laws->line, before + (ptrdiff_t)s)) *
+                         rc_product(rc_shape(basis, rc_ballast(basis, s)), twice, basis->length);
+}
+
 void rc_observe(rc_track *track, const rc_track_state *state, rc_observed what, double *values)
 {
     const rc_basis *basis = &track->basis;
@@ -222,6 +236,8 @@ void rc_observe(rc_track *track, const rc_track_state *state, rc_observed what, 
         for (size_t s = 0; s < basis->supports; ++s)
             values[s] = basis->ballast_stiffness * ballast_deformation(&at, s) +
                         basis->ballast_damping * ballast_rate(&at, s) + state->increment[s];
+        if (track->laws.inertial)
+            leave_out_sleepers(track, &at, values);
         break;
     case RC_SLEEPER_MOMENT:
         for (size_t s = 0; s < basis->supports; ++s)

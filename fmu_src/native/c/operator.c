@@ -29,6 +29,17 @@ static size_t end_at(const rc_basis *basis, size_t wheel)
     return 2 + 2 * basis->wheels + wheel;
 }
 
+/* Behind the others, if a law asks for accelerations. */
+static size_t free_acceleration_at(const rc_basis *basis)
+{
+    return 2 + 3 * basis->wheels;
+}
+
+static size_t drive_acceleration_at(const rc_basis *basis, size_t wheel)
+{
+    return 3 + 3 * basis->wheels + wheel;
+}
+
 static int serves(const rc_track *track, const double *dynamic, double step, int linear,
                   const double *positions)
 {
@@ -125,6 +136,25 @@ static void fill_duals(rc_track *track)
     }
 }
 
+/* Accelerations of the active components: free, and per contact force. */
+static void fill_accelerations(rc_track *track)
+{
+    const rc_basis *basis = &track->basis;
+    rc_operator *op = &track->operator_;
+    const size_t half = basis->half, length = basis->length, stride = op->active.stride;
+    const size_t first = free_acceleration_at(basis);
+    double *products = track->products;
+    rc_multiply_duals(track->duals + first * length, basis->eigenvalues,
+                      track->duals + free_rate_at(basis) * length, half);
+    for (size_t j = 0; j < basis->wheels; ++j)
+        rc_multiply_dual(track->duals + drive_acceleration_at(basis, j) * length,
+                         op->exponential->drive_acceleration, op->contacts[j], half);
+    rc_products(track->dual_rows + first, 1 + basis->wheels, op->active.rows, op->active.count,
+                length, products, stride);
+    memcpy(op->free_acceleration, products, stride * sizeof(double));
+    memcpy(op->acceleration_contact, products + stride, basis->wheels * stride * sizeof(double));
+}
+
 static void fill_contacts(rc_track *track)
 {
     const rc_basis *basis = &track->basis;
@@ -186,12 +216,14 @@ void rc_prepare_operator(rc_track *track, const double *dynamic, double step, in
     }
     rc_choose_supports(track, &state, positions);
     rc_copy_active(&op->active, &track->active);
-    op->exponential = rc_coefficients(&track->exponentials, basis, step, linear, &op->active,
-                                      track->scratch);
+    op->exponential = rc_coefficients(&track->exponentials, basis, step, linear,
+                                      track->laws.inertial, &op->active, track->scratch);
     move_freely(track, &state);
     fill_duals(track);
     fill_contacts(track);
     fill_active(track);
+    if (track->laws.inertial)
+        fill_accelerations(track);
     if (!rc_is_stiff(&track->laws))
         rc_linearise_increments(track, state.force, NULL);
     op->made = 1;

@@ -184,3 +184,11 @@ void rc_multiply_dual(double *out, const double *factor, const double *a, size_t
 {
     multiply_dual(out, out + half, factor, factor + half, a, a + half, half);
 }
+
+void rc_multiply_duals(double *out, const double *factor, const double *dual, size_t half)
+{
+    for (size_t n = 0; n < half; ++n) { /* conjugates: the signs change */
+        out[n] = factor[n] * dual[n] + factor[half + n] * dual[half + n];
+        out[half + n] = factor[n] * dual[half + n] - factor[half + n] * dual[n];
+    }
+}

@@ -33,4 +33,7 @@ void rc_multiply_add(double *out, const double *factor, const double *a, size_t 
 /* out = dual row of (factor a), the weight being in `factor` already. */
 void rc_multiply_dual(double *out, const double *factor, const double *a, size_t half);
 
+/* The same from the dual row of a. */
+void rc_multiply_duals(double *out, const double *factor, const double *dual, size_t half);
+
 #endif

@@ -169,8 +169,9 @@ static int falls(rc_track *track, const equilibrium *at)
 {
     const rc_laws *laws = &track->laws;
     const size_t count = track->active.count;
-    rc_law_tangents(laws, &track->active, &AT_REST, at->deformation, at->still, 0, at->tangent,
-                    at->change);
+    const rc_motion motion = {at->deformation, at->still, NULL};
+    const rc_tangents tangents = {at->tangent, at->change, NULL};
+    rc_law_tangents(laws, &track->active, &AT_REST, &motion, 0, &tangents);
     for (size_t a = 0; a < count; ++a) {
         const double linear = track->active.number[a] < laws->supports ? laws->ballast_stiffness
                                                                        : laws->pad_stiffness;
@@ -188,14 +189,14 @@ static int sweep(rc_track *track, const equilibrium *at, search *way)
     /* dampers of stiff laws bear nothing, and the rates of their increments are found once: where
      * gaps are about to close they would switch for ever */
     const int stiff = rc_is_stiff(&track->laws);
-    const double *motion = stiff ? at->still : at->rate;
-    rc_law_forces(&track->laws, &track->active, &AT_REST, at->deformation, motion, at->defect);
+    const rc_motion motion = {at->deformation, stiff ? at->still : at->rate, NULL};
+    const rc_tangents tangents = {at->tangent, at->change, NULL};
+    rc_law_forces(&track->laws, &track->active, &AT_REST, &motion, at->defect);
     for (size_t a = 0; a < count; ++a)
         at->defect[a] -= at->increment[a];
     if (stiff && is_too_far(at, way, count))
         return 0;
-    rc_law_tangents(&track->laws, &track->active, &AT_REST, at->deformation, motion, 0,
-                    at->tangent, at->change);
+    rc_law_tangents(&track->laws, &track->active, &AT_REST, &motion, 0, &tangents);
     for (size_t b = 0; b < count; ++b) { /* transposed, see rc_transform */
         for (size_t a = 0; a < count; ++a)
             at->matrix[b * stride + a] = at->tangent[a] * at->compliance[b * stride + a];
@@ -271,9 +272,10 @@ int rc_static_start(rc_track *track, rc_track_state *state, const double *forces
         return 0;
     /* and their rates, and what pads remember */
     memset(state->increment, 0, 7 * basis->supports * sizeof(double));
+    const rc_motion motion = {at.deformation, at.still, NULL};
     if (track->laws.pad == RC_VISCOELASTIC)
-        rc_law_memories(&track->laws, &track->active, &AT_REST, at.deformation, at.still,
-                        state->branch_force, state->compression, state->known);
+        rc_law_memories(&track->laws, &track->active, &AT_REST, &motion, state->branch_force,
+                        state->compression, state->known);
     for (size_t a = 0; a < track->active.count; ++a) {
         state->increment[track->active.number[a]] = at.increment[a];
         state->increment_rate[track->active.number[a]] = at.rate_of_increment[a];

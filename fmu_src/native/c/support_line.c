@@ -4,12 +4,14 @@
 #include <string.h>
 
 const rc_property_kind RC_PROPERTIES[RC_PROPERTY_COUNT] = {
-    [RC_PAD_STIFFNESS_FACTOR] = {"pad_stiffness_factor", 1.0},
-    [RC_PAD_DAMPING_FACTOR] = {"pad_damping_factor", 1.0},
-    [RC_BALLAST_STIFFNESS_FACTOR] = {"ballast_stiffness_factor", 1.0},
-    [RC_BALLAST_DAMPING_FACTOR] = {"ballast_damping_factor", 1.0},
-    [RC_GAP] = {"gap", 0.0},
-    [RC_FASTENED] = {"fastened", 1.0},
+    [RC_PAD_STIFFNESS_FACTOR] = {"pad_stiffness_factor", 1.0, 0.0},
+    [RC_PAD_DAMPING_FACTOR] = {"pad_damping_factor", 1.0, 0.0},
+    [RC_BALLAST_STIFFNESS_FACTOR] = {"ballast_stiffness_factor", 1.0, 0.0},
+    [RC_BALLAST_DAMPING_FACTOR] = {"ballast_damping_factor", 1.0, 0.0},
+    [RC_GAP] = {"gap", 0.0, 0.0},
+    [RC_FASTENED] = {"fastened", 1.0, 0.0},
+    /* lighter sleepers would need shorter steps than others do */
+    [RC_SLEEPER_MASS_FACTOR] = {"sleeper_mass_factor", 1.0, 0.1},
 };
 
 static const rc_support NOMINAL = {{
@@ -19,6 +21,7 @@ static const rc_support NOMINAL = {{
     [RC_BALLAST_DAMPING_FACTOR] = 1.0,
     [RC_GAP] = 0.0,
     [RC_FASTENED] = 1.0,
+    [RC_SLEEPER_MASS_FACTOR] = 1.0,
 }};
 
 const rc_support *rc_support_at(const rc_support_line *line, ptrdiff_t number)

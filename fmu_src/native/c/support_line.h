@@ -13,12 +13,13 @@ typedef enum {
     RC_BALLAST_DAMPING_FACTOR,
     RC_GAP,
     RC_FASTENED,
+    RC_SLEEPER_MASS_FACTOR,
     RC_PROPERTY_COUNT
 } rc_property;
 
 typedef struct {
     const char *name;
-    double nominal;
+    double nominal, least;
 } rc_property_kind;
 
 extern const rc_property_kind RC_PROPERTIES[RC_PROPERTY_COUNT];

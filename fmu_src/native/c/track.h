@@ -44,7 +44,8 @@ typedef struct {
     double *free_active, *free_rate;        /* (stride) */
     double *active_contact, *rate_contact;  /* (wheels, stride): per contact force */
     double *contact_active;                 /* (wheels, stride): per increment */
-    double *stiffness, *damping;            /* (stride): tangents at the step's start */
+    double *free_acceleration, *acceleration_contact; /* likewise, if a law asks for them */
+    rc_tangents tangents;                   /* (stride): at the step's start, or taken last */
     double *correction; /* (stride, stride): inverse Jacobian of the increments' equation */
     double *increment;                      /* (stride), of the step applied last */
 } rc_operator;
@@ -62,7 +63,7 @@ typedef struct {
     rc_operator operator_;
     rc_active active;
     size_t *first, *pivot;
-    double *duals;               /* (2 + 3 wheels) rows */
+    double *duals;               /* rows, see operator.c */
     const double **dual_rows;
     double *products, *scratch, *small; /* see the functions that use them */
     double *row, *other_row;
@@ -111,6 +112,10 @@ void rc_remember_pads(rc_track *track, const double *forces, rc_track_state *sta
 /* Increments that the motion under given forces and increments asks for. */
 void rc_demand_increments(rc_track *track, const double *forces, const double *increment,
                           double *demanded);
+
+/* What the contact force of a wheel, by one newton more, adds to the increments asked for. */
+void rc_demand_by_force(const rc_track *track, const rc_tangents *tangents, size_t wheel,
+                        double *demand);
 
 /* What a change of the forces changes in the increments found last; there must be room for the
  * Jacobian behind `change`, which track->products has. 0 if it is singular. */

@@ -66,7 +66,9 @@ static void take_active(store *from, rc_active *active, size_t room)
     active->rows = take(from, room, sizeof(double *));
 }
 
-static void take_operator(store *from, rc_operator *op, const rc_basis *basis, size_t room)
+/* `heavy` is the room for accelerations, none if no law asks for them. */
+static void take_operator(store *from, rc_operator *op, const rc_basis *basis, size_t room,
+                          size_t heavy)
 {
     const size_t wheels = basis->wheels;
     op->made = 0;
@@ -83,39 +85,54 @@ static void take_operator(store *from, rc_operator *op, const rc_basis *basis, s
     op->free_rate = numbers(from, room);
     op->active_contact = numbers(from, wheels * room);
     op->rate_contact = numbers(from, wheels * room);
+    op->free_acceleration = numbers(from, heavy);
+    op->acceleration_contact = numbers(from, wheels * heavy);
     op->contact_active = numbers(from, wheels * room);
-    op->stiffness = numbers(from, room);
-    op->damping = numbers(from, room);
+    op->tangents.stiffness = numbers(from, room);
+    op->tangents.damping = numbers(from, room);
+    op->tangents.mass = numbers(from, heavy);
     op->correction = numbers(from, room * room);
     op->increment = numbers(from, room);
 }
 
-static void take_exponential(store *from, rc_exponential *slot, size_t length, size_t room)
+static void take_exponential(store *from, rc_exponential *slot, size_t length, size_t room,
+                             size_t heavy)
 {
     double **const rows[] = {&slot->decay, &slot->start, &slot->end, &slot->drive,
                              &slot->drive_dual, &slot->drive_rate, &slot->end_dual,
                              &slot->end_rate};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i)
         *rows[i] = numbers(from, length);
+    slot->drive_acceleration = numbers(from, heavy > 0 ? length : 0);
+    slot->end_acceleration = numbers(from, heavy > 0 ? length : 0);
     slot->step = 0.0;
     slot->used = 0;
     take_active(from, &slot->active, room);
     slot->coupling = numbers(from, room * room);
     slot->rate_coupling = numbers(from, room * room);
+    slot->acceleration_coupling = numbers(from, heavy * heavy);
+}
+
+/* Rows of track->duals; see operator.c. */
+static size_t count_duals(const rc_track *track)
+{
+    const size_t wheels = track->basis.wheels;
+    return 2 + 3 * wheels + (track->laws.inertial ? 1 + wheels : 0);
 }
 
 static void take_all(store *from, rc_track *track, size_t room)
 {
     const rc_basis *basis = &track->basis;
-    const size_t wheels = basis->wheels, length = basis->length, duals = 2 + 3 * wheels;
+    const size_t wheels = basis->wheels, length = basis->length, duals = count_duals(track);
+    const size_t heavy = track->laws.inertial ? room : 0;
     const size_t state = rc_count_state(basis);
     track->gauge_position = numbers(from, basis->gauges);
     track->points = take(from, wheels, sizeof(rc_rail_point));
     for (size_t i = 0; i < RC_REMEMBERED_STEPS; ++i)
-        take_exponential(from, &track->exponentials.slots[i], length, room);
+        take_exponential(from, &track->exponentials.slots[i], length, room, heavy);
     track->exponentials.last = NULL;
     track->exponentials.clock = 0;
-    take_operator(from, &track->operator_, basis, room);
+    take_operator(from, &track->operator_, basis, room, heavy);
     take_active(from, &track->active, room);
     track->first = take(from, wheels, sizeof(size_t));
     track->pivot = take(from, room, sizeof(size_t));
@@ -162,7 +179,7 @@ rc_status rc_claim_track(rc_model *model, rc_track *track)
     take_all(&all, track, room);
     for (size_t i = 0; i < basis->wheels; ++i)
         track->operator_.contacts[i] = track->operator_.contact + i * basis->length;
-    for (size_t i = 0; i < 2 + 3 * basis->wheels; ++i)
+    for (size_t i = 0; i < count_duals(track); ++i)
         track->dual_rows[i] = track->duals + i * basis->length;
     return RC_OK;
 }

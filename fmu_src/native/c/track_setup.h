@@ -13,9 +13,10 @@ enum {
     SLEEPER_SHEAR_STIFFNESS, SLEEPER_MASS_PER_LENGTH, SLEEPER_ROTARY_INERTIA, SLEEPER_ELEMENTS,
     BALLAST, BALLAST_ALPHA, BALLAST_BETA, BALLAST_DELTA,
     MODE_PAIRS, RESIDUAL_FLEXIBILITY, SUPPORTS_PER_WHEEL, INITIAL_SPEED, ENDLESS,
-    BALLAST_SLOPE, BALLAST_TANGENT_DAMPING, BALLAST_PULLS, PAD, CLIP_PRELOAD, SUPPORTS, SUPPORTS_REPEAT,
+    BALLAST_SLOPE, BALLAST_TANGENT_DAMPING, BALLAST_PULLS, PAD, CLIP_PRELOAD, SUPPORTS,
+    SUPPORTS_REPEAT, BALLAST_MASS, BALLAST_MASS_GROWS,
     PAD_STIFFNESS_FACTOR, PAD_DAMPING_FACTOR, BALLAST_STIFFNESS_FACTOR, BALLAST_DAMPING_FACTOR,
-    SUPPORT_GAP, FASTENED, GAUGE_POSITION,
+    SUPPORT_GAP, FASTENED, SLEEPER_MASS_FACTOR, GAUGE_POSITION,
     RC_TRACK_PARAMETER_COUNT
 };
 
@@ -58,6 +59,8 @@ enum {
     [CLIP_PRELOAD] = {"clip_preload", RC_REAL, RC_PARAMETER, RC_ONE},                              \
     [SUPPORTS] = {"supports", RC_TEXT, RC_PARAMETER, RC_ONE},                                      \
     [SUPPORTS_REPEAT] = {"supports_repeat", RC_BOOLEAN, RC_PARAMETER, RC_ONE},                     \
+    [BALLAST_MASS] = {"ballast_mass", RC_REAL, RC_PARAMETER, RC_ONE},                              \
+    [BALLAST_MASS_GROWS] = {"ballast_mass_grows", RC_BOOLEAN, RC_PARAMETER, RC_ONE},               \
     [PAD_STIFFNESS_FACTOR] = {"support[#].pad_stiffness_factor", RC_REAL, RC_PARAMETER,            \
                               RC_SUPPORTS},                                                        \
     [PAD_DAMPING_FACTOR] = {"support[#].pad_damping_factor", RC_REAL, RC_PARAMETER, RC_SUPPORTS},  \
@@ -67,6 +70,7 @@ enum {
                                 RC_SUPPORTS},                                                      \
     [SUPPORT_GAP] = {"support[#].gap", RC_REAL, RC_PARAMETER, RC_SUPPORTS},                        \
     [FASTENED] = {"support[#].fastened", RC_BOOLEAN, RC_PARAMETER, RC_SUPPORTS},                   \
+    [SLEEPER_MASS_FACTOR] = {"support[#].sleeper_mass_factor", RC_REAL, RC_PARAMETER, RC_SUPPORTS}, \
     [GAUGE_POSITION] = {"gauge[#].position", RC_REAL, RC_PARAMETER, RC_GAUGES}
 
 /* Outputs of every track, in the order of rc_observed. */
