@@ -83,10 +83,15 @@ def _observe(
     gap = displacement[:w] - level
     loads, wheel_loads = _loads(system, times, force, positions)
     pad, pad_rate = track.pads(own, own_rate, loads)
+    base = system.laws.base
+    pad_force = base.pad_stiffness[:, None] * pad + base.pad_damping[:, None] * pad_rate
+    if system.laws.pads_have_ports:
+        pad_force -= force[len(force) - len(pad) :]
     under, at_gauges = _moments(system, gauges, (own, own_rate, loads), wheel_loads)
     parameters = track.parameters
-    seats = beds = displacement[w:]
-    bed_rate = track.sleepers.output @ own_rate
+    supports = parameters.supports
+    seats = beds = displacement[w : w + supports]
+    bed_rate = (track.supports.output @ own_rate)[:supports]
     of_sleepers: dict[str, Array] = {}
     if parameters.sleeper == "beam":
         seats, beds, bed_rate, moments = track.bent_sleepers(own, own_rate, loads)
@@ -103,10 +108,10 @@ def _observe(
         "residual_displacement": _columns([now.at_once[:w] for now in instants]),
         "bending_moment_under_wheel": under,
         "sleeper_displacement": seats,
-        "pad_force": parameters.pad_stiffness * pad + parameters.pad_damping * pad_rate,
-        "ballast_force": parameters.ballast_stiffness * beds
-        + parameters.ballast_damping * bed_rate
-        - force[w:],
+        "pad_force": pad_force,
+        "ballast_force": base.ballast_stiffness[:, None] * beds
+        + base.ballast_damping[:, None] * bed_rate
+        - force[w : w + supports],
         "bending_moment": at_gauges,
     }
 
@@ -130,10 +135,10 @@ def _velocities(
 def _loads(
     system: CoupledSystem, times: Sequence[float], force: Array, positions: Array
 ) -> tuple[Array, WheelLoads]:
-    """Forces on nodes and sleepers, shape (2 nodes + supports, times), and the wheels' again."""
+    """Forces on nodes and supports, shape (2 nodes + ports, times), and the wheels' again."""
     parameters, w = system.track.parameters, system.wheels
     nodal = 2 * (parameters.elements + 1)
-    loads = np.zeros((nodal + parameters.supports, len(times)))
+    loads = np.zeros((nodal + len(force) - w, len(times)))
     loads[nodal:] = force[w:]
     shapes = np.stack([system.weights(time)[0] for time in times], axis=2)
     for wheel, element in enumerate(system.elements.tolist()):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from dataclasses import fields
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -11,7 +10,6 @@ from threadpoolctl import threadpool_limits
 
 from fmu_src.python.basis_cache import cached_basis
 from track_fmu.assembly import assemble
-from track_fmu.parameters import TrackParameters
 from track_fmu.reduction import reduce_track
 
 from ..dataset import assemble as label
@@ -19,16 +17,17 @@ from ..errors import InputError
 from ..input_tables import check_profiles
 from ..run_record import ATTEMPT_COLUMNS, programs
 from ..summary import CAUSES
-from ..track_data import require_paper_laws
+from ..track_data import track_parameters
 from ..watched_control import Progress
 from .course import course_of
-from .full_track import FullTrack
+from .full_track import FullTrack, port_incidence
 from .integration import integrate
 from .integrators import Accuracy
-from .laws import HertzLaw, ballast_law
+from .laws import HertzLaw
 from .modal_track import ModalTrack
 from .observation import Observer
 from .static_start import static_start
+from .support_laws import support_laws
 from .system import ContactForm, CoupledSystem
 
 if TYPE_CHECKING:
@@ -64,8 +63,8 @@ def solve(
 ) -> xr.Dataset:
     """Solve a passage as one system of equations, Eq. (15)-(18).
 
-    Every support has state-dependent ballast, whatever ``track.supports_per_wheel`` says; the
-    section ``[master]`` has no meaning here.
+    Every support has the laws of its ballast and its pad, whatever ``track.supports_per_wheel``
+    says; the section ``[master]`` has no meaning here.
 
     Parameters
     ----------
@@ -102,7 +101,6 @@ def solve(
     ):
         if value not in get_args(kind):
             raise InputError(f"{name} is {value!r} but must be one of {', '.join(get_args(kind))}")
-    require_paper_laws(scenario, "the monolithic solution")
     if scenario.track.endless:
         raise InputError(
             "track.endless is true but this solution holds the whole track: leave it out, with as "
@@ -149,26 +147,27 @@ def make_system(
 ) -> tuple[CoupledSystem, NDArray[np.float64]]:
     """Return the system of a scenario and its state at t = 0.
 
-    The track starts in the static equilibrium of its full model, moving along; the wheels start
-    without vertical velocity.
+    The track starts in the static equilibrium of its full model, moving along, pads relaxed; the
+    wheels start without vertical velocity.
     """
     keys, vehicle = scenario.track, scenario.vehicle
-    names = [item.name for item in fields(TrackParameters)]
-    parameters = TrackParameters(**{name: getattr(keys, name) for name in names})
-    matrices = assemble(parameters)
-    track: LinearTrack = FullTrack(parameters, matrices)
+    parameters = track_parameters(keys)
+    laws = support_laws(scenario, all_in_matrices=model == "full")
+    matrices = laws.base.put_into(assemble(parameters), laws.supports.nominal)
+    ports = laws.pads_have_ports
+    track: LinearTrack = FullTrack(parameters, matrices, pad_ports=ports)
     if model == "modal":
         basis = cached_basis(parameters, matrices, mode_pairs=keys.retained_pairs)
         reduced = reduce_track(
             parameters, matrices, basis, residual_flexibility=keys.residual_flexibility
         )
-        track = ModalTrack(reduced, matrices, basis)
+        track = ModalTrack(reduced, matrices, basis, pad_ports=ports)
     course = course_of(scenario)
     system = CoupledSystem(
         track=track,
         course=course,
         contact=HertzLaw(coefficient=vehicle.hertz_coefficient),
-        ballast=ballast_law(keys),
+        laws=laws,
         form=contact_form,
         wheel_mass=vehicle.wheel_mass,
         static_load=vehicle.static_wheel_load,
@@ -179,16 +178,18 @@ def make_system(
 
 def _start(system: CoupledSystem, matrices: TrackMatrices) -> NDArray[np.float64]:
     """State at t = 0."""
-    full = FullTrack(system.track.parameters, matrices)
+    full = FullTrack(system.track.parameters, matrices, pad_ports=system.laws.pads_have_ports)
     shape, slope = (
         full.wheels(system.elements, weights).output[:, : matrices.numbering.size]
         for weights in system.weights(0.0)
     )
     load = system.static_load * shape.sum(axis=0)
     load_rate = system.static_load * system.course.speed(0.0) * slope.sum(axis=0)
-    displacement, velocity = static_start(matrices, system.ballast, load=load, load_rate=load_rate)
+    displacement, velocity = static_start(matrices, system.laws, load=load, load_rate=load_rate)
     own = system.track.begin(displacement, velocity)
-    return system.at_rest(own, shape @ displacement)
+    ports = port_incidence(matrices, pad_ports=system.laws.pads_have_ports)
+    memory = system.laws.relaxed(ports.T @ displacement)
+    return system.at_rest(own, shape @ displacement, memory)
 
 
 def _sampling(times: NDArray[np.float64] | None, stop: float) -> NDArray[np.float64]:

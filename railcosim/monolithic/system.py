@@ -2,7 +2,7 @@
 
 The state is ``{track, z, z'}``, of the wheels' displacements and velocities; with contact in the
 form of constraints ``{track, z, z', s, I}``, with the displacements of the contact points and the
-impulses of the contact forces, as in Eq. (15).
+impulses of the contact forces, as in Eq. (15). Pads that relax have states behind these.
 
 ``hertz``: the contact force follows from the compression ``z - drop - u``, where the rail
 displacement ``u`` comes from the state of the track.
@@ -36,8 +36,9 @@ if TYPE_CHECKING:
 
     from .blocks import Blocks
     from .course import Course
-    from .laws import BallastLaw, HertzLaw
+    from .laws import HertzLaw
     from .linear_track import LinearTrack, Matrix
+    from .support_laws import SupportLaws
 
 ContactForm: TypeAlias = Literal["hertz", "constraint"]
 """How the contact is written."""
@@ -82,8 +83,8 @@ class CoupledSystem:
         With s components of state.
     course : Course
         Of w wheels.
-    contact, ballast
-        Laws.
+    contact, laws
+        Of the wheels; of ballast and pads.
     form : ContactForm
         How the contact is written.
     wheel_mass, static_load : float
@@ -95,7 +96,7 @@ class CoupledSystem:
     track: LinearTrack
     course: Course
     contact: HertzLaw
-    ballast: BallastLaw
+    laws: SupportLaws
     form: ContactForm
     wheel_mass: float
     static_load: float
@@ -108,10 +109,11 @@ class CoupledSystem:
 
     @cached_property
     def parts(self) -> tuple[slice, ...]:
-        """Places of track, z, z', and with constraints s and I in the state."""
+        """Places of track, z, z', with constraints s and I, and the laws' memories in the state."""
         ends = len(self.track.scale) + self.wheels * np.arange(
             5 if self.form == "constraint" else 3
         )
+        ends = np.append(ends, ends[-1] + self.laws.memories)
         return tuple(slice(a, b) for a, b in zip([0, *ends[:-1]], ends, strict=True))
 
     @property
@@ -125,6 +127,7 @@ class CoupledSystem:
         others = np.ones(self.size - len(self.track.scale))
         scale = np.concatenate((self.track.scale, others))
         scale[self.parts[2]] = FREQUENCY
+        scale[self.parts[-1]] = self.laws.pads.memory_scale
         if self.form == "constraint":
             scale[self.parts[4]] = self.wheel_mass * FREQUENCY
         return scale
@@ -154,7 +157,12 @@ class CoupledSystem:
             np.array([deflection_slope(xi, length, phi) for xi in places]),
         )
 
-    def at_rest(self, own: NDArray[np.float64], rail: NDArray[np.float64]) -> NDArray[np.float64]:
+    def at_rest(
+        self,
+        own: NDArray[np.float64],
+        rail: NDArray[np.float64],
+        memory: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
         """Return the state with the wheels at rest at t = 0 under their static loads.
 
         Parameters
@@ -163,9 +171,11 @@ class CoupledSystem:
             State of the track.
         rail : ndarray, shape (wheels,)
             Displacement of the rail under each wheel [m].
+        memory : ndarray, shape (memories,)
+            Of the laws.
         """
         state = np.zeros(self.size)
-        state[self.parts[0]] = own
+        state[self.parts[0]], state[self.parts[-1]] = own, memory
         compression = self.contact.compression(self.static_load)
         state[self.parts[1]] = rail + self.course.drops(0.0) + compression
         if self.form == "constraint":
@@ -180,12 +190,12 @@ class CoupledSystem:
         shape, _ = self.weights(time)
         wheels = track.wheels(self.elements, shape)
         under = wheels.output @ own if self.form == "hertz" else state[parts[3]]
-        displacement = np.concatenate((under, track.sleepers.output @ own))
-        rate = np.concatenate((np.zeros(self.wheels), track.sleepers.rate @ own))
+        displacement = np.concatenate((under, track.supports.output @ own))
+        rate = np.concatenate((np.zeros(self.wheels), track.supports.rate @ own))
         feedthrough = track.feedthrough(self.elements, shape)
         level = state[parts[1]] - self.course.drops(time)
         forces = solve_port_forces(
-            Laws(self.contact, self.ballast, level), displacement, rate, feedthrough
+            Laws(self.contact, self.laws, level, state[parts[-1]]), displacement, rate, feedthrough
         )
         at_once = np.zeros_like(displacement)
         if feedthrough is not None:
@@ -201,8 +211,8 @@ class CoupledSystem:
     ) -> NDArray[np.float64]:
         """Return the same where the forces are known."""
         track, parts = self.track, self.parts
-        force, beds = np.split(now.forces.force, [self.wheels])
-        load = now.wheels.inputs.T @ force + track.sleepers.inputs.T @ beds
+        force, borne = np.split(now.forces.force, [self.wheels])
+        load = now.wheels.inputs.T @ force + track.supports.inputs.T @ borne
         rate = np.empty(self.size)
         rate[parts[0]] = track.advance(state[parts[0]], load)
         rate[parts[1]] = state[parts[2]]
@@ -211,6 +221,9 @@ class CoupledSystem:
             rate[parts[3]] = now.wheels.output @ rate[parts[0]]
             rate[parts[3]] += self.convective(time) @ state[parts[0]]
             rate[parts[4]] = force
+        if self.laws.memories:
+            deformed = now.displacement[self.wheels :]
+            rate[parts[-1]] = self.laws.relaxation(deformed, state[parts[-1]]).rate
         return rate
 
     def gaps(self, time: float, state: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -223,12 +236,12 @@ class CoupledSystem:
         now, track, w = self.instant(time, state), self.track, self.wheels
         blocks = SPARSE if sp.issparse(track.matrix) else DENSE
         _, rate, inputs = (blocks.matrix(part) for part in now.wheels)
-        forces = self._force_jacobian(now, blocks)
+        forces = self._force_jacobian(now, state[self.parts[-1]], blocks)
         on_wheels = forces[:w]
         rows = [
             self._padded(track.matrix, blocks)
             + inputs.T @ on_wheels
-            + track.sleepers.inputs.T @ forces[w:],
+            + track.supports.inputs.T @ forces[w:],
             self._columns({2: np.eye(w)}, blocks),
             -on_wheels / self.wheel_mass,
         ]
@@ -237,6 +250,8 @@ class CoupledSystem:
             if now.feedthrough is not None:
                 along = along + now.feedthrough.mobility[:w] @ forces
             rows += [along, on_wheels]
+        if self.laws.memories:
+            rows.append(self._memory_jacobian(now, state[self.parts[-1]], forces, blocks))
         return blocks.stack(rows)
 
     def convective(self, time: float) -> Matrix:
@@ -244,21 +259,43 @@ class CoupledSystem:
         _, slope = self.weights(time)
         return self.course.speed(time) * self.track.wheels(self.elements, slope).output
 
-    def _force_jacobian(self, now: Instant, blocks: Blocks) -> Matrix:
+    def _force_jacobian(self, now: Instant, memory: NDArray[np.float64], blocks: Blocks) -> Matrix:
         """Derivative of all port forces by the state, shape (p, size)."""
         w, track = self.wheels, self.track
         tied = self.form == "constraint"
         compression = self._columns({1: -np.eye(w)} | ({3: np.eye(w)} if tied else {}), blocks)
         if not tied:
             compression = compression + self._padded(blocks.matrix(now.wheels.output), blocks)
-        displacement = blocks.stack([compression, self._padded(track.sleepers.output, blocks)])
+        displacement = blocks.stack([compression, self._padded(track.supports.output, blocks)])
         still = blocks.zeros(w, self.size)
-        rate = blocks.stack([still, self._padded(track.sleepers.rate, blocks)])
+        rate = blocks.stack([still, self._padded(track.supports.rate, blocks)])
         forces: Matrix = sp.diags_array(now.forces.by_displacement) @ displacement
         forces = forces + sp.diags_array(now.forces.by_rate) @ rate
+        if self.laws.memories:
+            by_memory = self.laws.by_memory(now.displacement[w:], memory)
+            forces = forces - blocks.matrix(self._remembering(by_memory, first=w))
         if now.feedthrough is None:
             return forces
         return np.linalg.solve(now.forces.sensitivity(now.feedthrough), forces)
+
+    def _memory_jacobian(
+        self, now: Instant, memory: NDArray[np.float64], forces: Matrix, blocks: Blocks
+    ) -> Matrix:
+        """Derivative of the rates of the memories by the state, shape (memories, size)."""
+        change = self.laws.relaxation(now.displacement[self.wheels :], memory)
+        deformation = self._padded(self.track.supports.output, blocks)
+        if now.feedthrough is not None:
+            deformation = deformation + now.feedthrough.flexibility[self.wheels :] @ forces
+        deformed = deformation[deformation.shape[0] - len(memory) :]
+        own = self._remembering(change.by_memory, first=0)
+        return sp.diags_array(change.by_displacement) @ deformed + blocks.matrix(own)
+
+    def _remembering(self, values: NDArray[np.float64], *, first: int) -> NDArray[np.float64]:
+        """Rows with values of the last ones, one a memory, in the columns of the memories."""
+        rows = np.zeros((first + len(values), self.size))
+        count = self.laws.memories
+        np.fill_diagonal(rows[len(rows) - count :, self.parts[-1]], values[len(values) - count :])
+        return rows
 
     def _padded(self, rows: Matrix, blocks: Blocks) -> Matrix:
         """Rows that see the track alone, as rows that see the whole state."""
