@@ -79,9 +79,9 @@ def _observe(
     displacement = _columns([now.displacement for now in instants])
     level = _columns([now.level for now in instants])
     own, own_rate = state[parts[0]], rates[parts[0]]
-    positions = _columns([system.course.positions(time) for time in times])
+    positions = _columns([system.places.course.positions(time) for time in times])
     gap = displacement[:w] - level
-    loads, wheel_loads = _loads(system, times, force, positions)
+    loads, wheel_loads = _loads(system, times, force)
     pad, pad_rate = track.pads(own, own_rate, loads)
     base = system.laws.base
     pad_force = base.pad_stiffness[:, None] * pad + base.pad_damping[:, None] * pad_rate
@@ -96,13 +96,15 @@ def _observe(
     if parameters.sleeper == "beam":
         seats, beds, bed_rate, moments = track.bent_sleepers(own, own_rate, loads)
         of_sleepers = dict(zip(SLEEPER_MOMENTS, moments, strict=True))
+    bodies = system.vehicle.observe(state[parts[1]], state[parts[2]], rates[parts[2]])
     return of_sleepers | {
+        **bodies,
         "contact_force": force[:w],
         "gap": gap,
         "in_contact": (gap < 0.0).astype(float),
         "wheel_position": positions,
-        "wheel_displacement": state[parts[1]],
-        "wheel_velocity": state[parts[2]],
+        "wheel_displacement": system.wheel_displacements(state),
+        "wheel_velocity": state[parts[2]][:w],
         "rail_displacement": displacement[:w],
         "rail_velocity": _velocities(system, times, states, instants, own_rate),
         "residual_displacement": _columns([now.at_once[:w] for now in instants]),
@@ -132,20 +134,18 @@ def _velocities(
     )
 
 
-def _loads(
-    system: CoupledSystem, times: Sequence[float], force: Array, positions: Array
-) -> tuple[Array, WheelLoads]:
+def _loads(system: CoupledSystem, times: Sequence[float], force: Array) -> tuple[Array, WheelLoads]:
     """Forces on nodes and supports, shape (2 nodes + ports, times), and the wheels' again."""
     parameters, w = system.track.parameters, system.wheels
     nodal = 2 * (parameters.elements + 1)
     loads = np.zeros((nodal + len(force) - w, len(times)))
     loads[nodal:] = force[w:]
-    shapes = np.stack([system.weights(time)[0] for time in times], axis=2)
-    for wheel, element in enumerate(system.elements.tolist()):
+    shapes = np.stack([system.places.shapes(time) for time in times], axis=2)
+    for wheel, element in enumerate(system.places.elements.tolist()):
         loads[2 * element : 2 * element + 4] += shapes[wheel] * force[wheel]
     wheels = WheelLoads(
-        elements=system.elements,
-        places=positions / parameters.element_length - system.elements[:, None],
+        elements=system.places.elements,
+        places=_columns([system.places.within(time) for time in times]),
         couples=np.stack([shapes[:, 1], shapes[:, 3]]),
         forces=force[:w],
     )

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..scenario import Scenario
+    from ..track_section import Track
     from .pad_laws import PadLaw, Relaxation
     from .support_properties import SupportProperties
 
@@ -140,13 +141,15 @@ class SupportLaws:
         return np.concatenate(ends)
 
 
-def support_laws(scenario: Scenario, *, all_in_matrices: bool) -> SupportLaws:
+def support_laws(scenario: Scenario, track: Track, *, all_in_matrices: bool) -> SupportLaws:
     """Return the laws of a scenario.
 
     Parameters
     ----------
     scenario : Scenario
-        Its track and its variation.
+        Its supports.
+    track : Track
+        Its track, or what is held of an endless one.
     all_in_matrices : bool
         Whether the matrices hold what is linear of every support, whatever it is; or else the
         nominal springs and dampers.
@@ -154,10 +157,10 @@ def support_laws(scenario: Scenario, *, all_in_matrices: bool) -> SupportLaws:
     Raises
     ------
     InputError
-        For a table that cannot be used.
+        For a table that cannot be used, or an endless track whose supports differ.
     """
-    track, supports = scenario.track, properties_of(scenario)
-    pads = _pad_law(scenario, supports)
+    supports = properties_of(scenario, track)
+    pads = _pad_law(track, supports)
     linear = track.pad == "linear"
     loose_pads = supports.rail_lifts if linear else np.ones(len(supports.gap), dtype=np.bool_)
     base = supports.nominal
@@ -186,8 +189,7 @@ def support_laws(scenario: Scenario, *, all_in_matrices: bool) -> SupportLaws:
     )
 
 
-def _pad_law(scenario: Scenario, supports: SupportProperties) -> PadLaw:
-    track = scenario.track
+def _pad_law(track: Track, supports: SupportProperties) -> PadLaw:
     if track.pad == "linear":
         return ElasticPads(curve=PowerCurve(stiffness=track.pad_stiffness), supports=supports)
     try:

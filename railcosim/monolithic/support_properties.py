@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy.sparse as sp
 
+from ..errors import InputError
 from ..support_values import support_properties
 
 if TYPE_CHECKING:
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from track_fmu.assembly import TrackMatrices
 
     from ..scenario import Scenario
+    from ..track_section import Track
 
     Array = NDArray[np.float64]
 
@@ -92,15 +94,17 @@ class SupportProperties:
     rail_lifts: NDArray[np.bool_]
 
 
-def properties_of(scenario: Scenario) -> SupportProperties:
-    """Return the supports of a scenario.
+def properties_of(scenario: Scenario, track: Track) -> SupportProperties:
+    """Return the supports of a scenario's track, or of what is held of an endless one.
 
     Raises
     ------
     InputError
-        For a table that cannot be used.
+        For a table that cannot be used, or an endless track whose supports differ.
     """
-    track, given = scenario.track, support_properties(scenario)
+    given = support_properties(scenario)
+    if scenario.track.endless:
+        given = {name: _everywhere(values, track.bays - 1) for name, values in given.items()}
     names = ("pad_stiffness", "pad_damping", "ballast_stiffness", "ballast_damping")
     factors = {name: given[f"{name}_factor"] for name in names}
     nominal = {name: np.full(len(factors[name]), getattr(track, name)) for name in names}
@@ -112,3 +116,14 @@ def properties_of(scenario: Scenario) -> SupportProperties:
         sleeper_lifts=(given["gap"] > 0.0) | (not track.ballast_pulls),
         rail_lifts=given["fastened"] == 0.0,
     )
+
+
+def _everywhere(values: Array, supports: int) -> Array:
+    """Return what all supports of an endless track have."""
+    if (values != values[0]).any():
+        raise InputError(
+            "track.endless is true and supports differ, but the monolithic solution holds endless "
+            "tracks of equal supports only: leave track.endless out, with as many track.bays as "
+            "the run takes"
+        )
+    return np.full(supports, values[0])

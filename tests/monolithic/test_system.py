@@ -5,10 +5,14 @@ import pytest
 
 from railcosim.errors import InputError
 from railcosim.monolithic import solve
+from railcosim.monolithic.course import course_of
+from railcosim.monolithic.held_track import held_track
 from railcosim.monolithic.integrators import Accuracy
+from railcosim.monolithic.jacobian import jacobian
 from railcosim.monolithic.solution import make_system
 from railcosim.scenario_file import read_scenario
 from railcosim.summary import summarise
+from railcosim.surface_tables import compose
 
 STATIC_LOAD = 117_720.0
 MASS = 592.5
@@ -21,27 +25,51 @@ def small(*overrides):
     return read_scenario(None, (*ONE, *overrides))
 
 
+def built(scenario, model, form):
+    course = course_of(scenario, compose(scenario))
+    return make_system(scenario, held_track(scenario), course, model=model, contact_form=form)
+
+
+SUSPENDED = (
+    "vehicle.model=suspended",
+    "suspension.tread_mass=200",
+    "suspension.tread_stiffness=5e8",
+    "suspension.primary_rebound_ratio=3",
+    "suspension.primary_clearance=-1e-3",
+    "suspension.primary_stop_stiffness=2e6",
+)
+
+
+@pytest.mark.parametrize("vehicle", [(), SUSPENDED], ids=["masses", "suspended"])
 @pytest.mark.parametrize(("model", "form"), BOTH)
-def test_the_jacobian_is_the_derivative(model, form):
-    scenario = read_scenario(None, SMALL)
-    system, state = make_system(scenario, model=model, contact_form=form)
-    change = 1e-9 * system.scale * np.random.default_rng(4).standard_normal(system.size)
+def test_the_jacobian_is_the_derivative(model, form, vehicle):
+    system, state = built(read_scenario(None, (*SMALL, *vehicle)), model, form)
+    random = np.random.default_rng(4)
+    state[system.parts[2]] += 0.1 * random.standard_normal(len(system.vehicle.scale))
+    change = 1e-9 * system.scale * random.standard_normal(system.size)
     time = 1e-4
     rates = (system.rates(time, state + change) - system.rates(time, state - change)) / 2.0
     if system.mass is not None:
         rates = system.mass @ rates
-    expected = system.jacobian(time, state) @ change
+    expected = jacobian(system, time, state) @ change
     # central differences of a law with curvature 1e12 N/m2 over 1 nm, and rounding
     assert np.abs(rates - expected).max() < 1e-5 * np.abs(expected).max()
+    moved = slice(system.parts[1].start, system.parts[2].stop)  # the vehicle by itself
+    assert rates[moved] == pytest.approx(
+        expected[moved], rel=1e-6, abs=1e-6 * np.abs(expected[moved]).max()
+    )
 
 
+@pytest.mark.parametrize("vehicle", [(), SUSPENDED], ids=["masses", "suspended"])
 @pytest.mark.parametrize(("model", "form"), BOTH)
-def test_the_start_is_static(model, form):
-    system, state = make_system(small(), model=model, contact_form=form)
+def test_the_start_is_static(model, form, vehicle):
+    system, state = built(small(*vehicle), model, form)
     now = system.instant(0.0, state)
     # the modes that are left out do not follow the velocity of the track
     assert now.forces.force[0] == pytest.approx(STATIC_LOAD, rel=1e-4)
     assert (system.gaps(0.0, state) < 0.0).all()
+    rates = system.rates(0.0, state)[system.parts[2]]
+    assert (rates[1:] == 0.0).all()  # everything above the tread of the one wheel
 
 
 @pytest.fixture(scope="module")
@@ -110,8 +138,10 @@ def test_a_tighter_tolerance_changes_little():
 def test_what_cannot_be_used_is_refused():
     with pytest.raises(InputError, match="model is 'half' but must be one of modal, full"):
         solve(small(), model="half")
-    with pytest.raises(InputError, match="knows rigid wheels under their loads only"):
-        solve(small("vehicle.model=suspended"))
+    with pytest.raises(
+        InputError, match=r"takes 431 bays of the endless track, but .* at most 400"
+    ):
+        solve(read_scenario(None, ("track.endless=true", "run.departure=240")))
     with pytest.raises(InputError, match=r"rtol is 1\.0 but must lie between"):
         Accuracy(rtol=1.0)
     with pytest.raises(InputError, match="method is 'Euler' but must be one of Radau, BDF"):
