@@ -150,8 +150,9 @@ def make_system(
 ) -> tuple[CoupledSystem, NDArray[np.float64]]:
     """Return the system of a scenario and its state at t = 0.
 
-    The track starts in the static equilibrium of its full model, moving along, with relaxed pads;
-    the vehicle starts level, without vertical velocity, every wheel under its static load.
+    The track starts in the static equilibrium of its full model, moving along, with relaxed pads
+    and, as in the FMUs, with nominal dampers: sleepers that hang free are long in forgetting those.
+    The vehicle starts level, without vertical velocity, every wheel under its static load.
 
     Parameters
     ----------
@@ -166,7 +167,8 @@ def make_system(
     """
     parameters = track_parameters(held.keys)
     laws = support_laws(scenario, held.keys, all_in_matrices=model == "full")
-    matrices = laws.base.put_into(assemble(parameters), laws.supports.nominal)
+    nominal = assemble(parameters)
+    matrices = laws.base.put_into(nominal, laws.supports.nominal)
     full = FullTrack(parameters, matrices, pad_ports=laws.pads_have_ports)
     places = RailPlaces(
         course=course,
@@ -180,8 +182,8 @@ def make_system(
         for weights in (places.shapes(0.0), places.slopes(0.0))
     )
     displacement, velocity = static_start(
-        matrices,
-        laws,
+        nominal,
+        support_laws(scenario, held.keys, all_in_matrices=False),
         load=load * shapes.sum(axis=0),
         load_rate=load * course.speed(0.0) * slopes.sum(axis=0),
     )
