@@ -1,6 +1,5 @@
 """An FMU in a process of its own: it may crash or hang without taking the run with it."""
 
-import json
 from collections.abc import Mapping, Sequence
 from math import nan
 from pathlib import Path
@@ -8,8 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from .errors import ParticipantError, SettingsError
+from .exchanged_values import ExchangedValues
 from .fmu import DescribedFmu, FmuParticipant, StartValue
 from .frames import Operation, Report, experiment, step_times
+from .isolation_setup import IsolationSetup
 from .participant import OK, InputShape, Matrix, Status, Vector
 from .resumed_process import ResumedProcess, snapshot_interval
 from .worker_process import WorkerLostError
@@ -62,17 +63,15 @@ class IsolatedParticipant(DescribedFmu):
         if not timeout > 0.0:
             raise SettingsError(f"timeout = {timeout} s must be positive.")
         super().__init__(path)
-        self._path, self._timeout = Path(path), timeout
-        self._start_values = dict(start_values or {})
+        self._timeout = timeout
         # Never instantiated: it knows the file and decides on the shape of the inputs.
         self._described = FmuParticipant(path, name=name, start_values=start_values)
         self.name = self._described.name
         self.incidents: list[str] = []
-        self._bound: tuple[tuple[str, ...], ...] = ((), (), ())
-        self._wish: InputShape = "held"
-        self._inputs: Vector = np.empty(0)
-        self._outputs: Vector = np.empty(0)
-        self._outputs_known = False
+        self._setup = IsolationSetup(
+            path=str(Path(path).absolute()), name=self.name, start_values=dict(start_values or {})
+        )
+        self._exchanged = ExchangedValues(())
         self._process: ResumedProcess | None = None
         self._step_size: float | None = None
         self._messages: tuple[str, ...] = ()
@@ -101,8 +100,9 @@ class IsolatedParticipant(DescribedFmu):
         input_shape: InputShape,
     ) -> None:
         """Fix the variables exchanged; take inputs as straight lines if it can and should."""
-        self._bound = (tuple(inputs), tuple(outputs), tuple(observed))
-        self._wish = input_shape
+        self._setup = self._setup.bound(
+            inputs=inputs, outputs=outputs, observed=observed, input_shape=input_shape
+        )
         self._described.bind(
             inputs=inputs, outputs=outputs, observed=observed, input_shape=input_shape
         )
@@ -112,11 +112,9 @@ class IsolatedParticipant(DescribedFmu):
         self.free()
         self._messages, self._step_size = (), None
         self._process = None
-        self._inputs = np.zeros(len(self._bound[0]))
-        self._outputs = np.zeros(len(self._bound[1]))
-        self._outputs_known = False
+        self._exchanged = ExchangedValues(self._setup.inputs)
         try:
-            self._process = ResumedProcess(self.name, self._setup(), self._timeout)
+            self._process = ResumedProcess(self.name, self._setup.write(), self._timeout)
         except WorkerLostError as lost:
             raise self._error(f"its process {lost.reason} when it was instantiated") from lost
         self._process.incidents = self.incidents
@@ -137,21 +135,19 @@ class IsolatedParticipant(DescribedFmu):
 
     def set_inputs(self, values: Vector) -> Status:
         """Set the bound inputs, shape (n_inputs,), with the next call that has an answer."""
-        self._inputs[:] = values
-        self._outputs_known = False
-        operation = bytes([Operation.SET_INPUTS]) + self._inputs.tobytes()
+        operation = self._exchanged.give(values)
         self._live.do_later(operation)
         self._live.journal.go_on(operation)
         return OK
 
     def get_outputs(self, out: Vector) -> Status:
         """Write the bound outputs to `out`, shape (n_outputs,)."""
-        if not self._outputs_known:
+        if self._exchanged.outputs is None:
             report = self._read(Operation.GET_OUTPUTS, "outputs")
             if report.status is not OK:
                 return report.status
-            self._take_outputs(report)
-        out[:] = self._outputs
+            self._exchanged.take(report)
+        out[:] = self._exchanged.outputs
         return OK
 
     def get_observed(self, out: Vector) -> Status:
@@ -177,7 +173,7 @@ class IsolatedParticipant(DescribedFmu):
         operation = bytes([Operation.STEP]) + step_times.pack(time, step_size)
         report = self._noted(process.ask(operation, "the step", steps=1))
         if report.status is OK:
-            self._take_outputs(report)
+            self._exchanged.take(report)
         return report.status
 
     def save(self) -> object:
@@ -188,7 +184,7 @@ class IsolatedParticipant(DescribedFmu):
         """Go back to `state`, with the next call that has an answer."""
         assert isinstance(state, int)
         self._live.restore(state)
-        self._outputs_known = False
+        self._exchanged.forget()
 
     def release(self, state: object) -> None:
         """Give up `state`."""
@@ -218,22 +214,9 @@ class IsolatedParticipant(DescribedFmu):
         assert self._process is not None, "instantiate comes first"
         return self._process
 
-    def _setup(self) -> bytes:
-        inputs, outputs, observed = self._bound
-        setup = {
-            "path": str(self._path.absolute()),
-            "name": self.name,
-            "start_values": self._start_values,
-            "inputs": inputs,
-            "outputs": outputs,
-            "observed": observed,
-            "input_shape": self._wish,
-        }
-        return json.dumps(setup).encode()
-
     def _initialise(self, operation: bytes) -> None:
         self._require(self._live.initialise(operation))
-        self._outputs_known = False
+        self._exchanged.forget()
 
     def _read(self, operation: Operation, what: str) -> Report:
         return self._noted(self._live.ask(bytes([operation]), f"reading its {what}"))
@@ -242,10 +225,6 @@ class IsolatedParticipant(DescribedFmu):
         state, report = saved
         self._require(report)
         return state
-
-    def _take_outputs(self, report: Report) -> None:
-        self._outputs[:] = np.frombuffer(report.payload)
-        self._outputs_known = True
 
     def _noted(self, report: Report) -> Report:
         if report.status is not OK:
@@ -259,12 +238,11 @@ class IsolatedParticipant(DescribedFmu):
 
     def _error(self, failure: str) -> ParticipantError:
         time = None if self._process is None else self._process.time
-        inputs = dict(zip(self._bound[0], self._inputs.tolist(), strict=True))
         return ParticipantError(
             participant=self.name,
             failure=failure,
             time=time,
             step_size=self._step_size,
-            inputs=inputs if time is not None else None,
+            inputs=None if time is None else self._exchanged.named_inputs(),
             messages=self._messages,
         )

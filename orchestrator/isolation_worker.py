@@ -1,6 +1,5 @@
 """The process in which an isolated FMU runs: carries out requests until there are no more."""
 
-import json
 import os
 import signal
 from collections.abc import Callable
@@ -21,6 +20,7 @@ from .frames import (
     write_frame,
     write_report,
 )
+from .isolation_setup import IsolationSetup
 from .participant import OK, Status, StatusKind
 
 
@@ -130,13 +130,11 @@ class Worker:
 
 def open_worker(setup: bytes) -> tuple[Worker | None, Report]:
     """Instantiate the FMU that `setup` describes, and report on that."""
-    words = json.loads(setup)
+    told = IsolationSetup.read(setup)
+    names = {"inputs": told.inputs, "outputs": told.outputs, "observed": told.observed}
     try:
-        participant = FmuParticipant(
-            words["path"], name=words["name"], start_values=words["start_values"]
-        )
-        names = {key: words[key] for key in ("inputs", "outputs", "observed")}
-        participant.bind(**names, input_shape=words["input_shape"])
+        participant = FmuParticipant(told.path, name=told.name, start_values=told.start_values)
+        participant.bind(**names, input_shape=told.input_shape)
         participant.instantiate()
     except OrchestratorError as error:
         what = error.failure if isinstance(error, ParticipantError) else str(error)

@@ -7,7 +7,8 @@ from itertools import pairwise
 from typing import Annotated
 
 from .errors import InputError
-from .fields import Choice, Number, check_fields
+from .field_rules import Choice, Number
+from .fields import check_fields
 
 DEFAULT_MAX_STEP = 2e-4
 """Largest step of the master [s]: it resolves the rail's modes to 1 kHz."""

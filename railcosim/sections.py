@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
-from .fields import Choice, Number, check_fields, is_csv
+from .field_rules import Choice, Number, is_csv
+from .fields import check_fields
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -16,7 +16,8 @@ from vehicle_fmu.suspension_parameters import (
 )
 
 from .errors import InputError
-from .fields import Number, check_fields
+from .field_rules import Number
+from .fields import check_fields
 
 if TYPE_CHECKING:
     from .vehicle_section import Vehicle

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from .errors import InputError
-from .fields import Choice, CsvFile, Number, check_fields
+from .field_rules import Choice, CsvFile, Number
+from .fields import check_fields
 
 MOST_DEGREES_OF_FREEDOM = 10_000
 """Size of track whose modes fit in a few gigabytes of memory."""

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from .errors import InputError
-from .fields import Number, Numbers, check_fields
+from .field_rules import Number, Numbers
+from .fields import check_fields
 
 LISTS = ("hanging_sleepers", "missing_fastenings", "missing_pads")
 """Keys that name supports."""

@@ -9,7 +9,8 @@ from vehicle_fmu.hertz_coefficient import hertz_coefficient
 from vehicle_fmu.suspension_parameters import GRAVITY
 
 from .errors import InputError
-from .fields import Choice, CsvFile, Number, check_fields
+from .field_rules import Choice, CsvFile, Number
+from .fields import check_fields
 from .presets import PRESETS
 
 DEFAULT_SPEED_KMH = 40.0

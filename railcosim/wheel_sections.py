@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar, TypeAlias
 
 from .errors import InputError
-from .fields import Choice, CsvFile, Number, check_fields
+from .field_rules import Choice, CsvFile, Number
+from .fields import check_fields
 from .irregularity.wheel_defects import amplitude_of
 
 SECTION = "wheel_defect"

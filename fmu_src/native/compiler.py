@@ -17,79 +17,11 @@ from pathlib import Path
 
 import fmpy
 
+from .model_sources import MODELS
+
 SOURCES = Path(__file__).parent / "c"
 HEADERS = Path(str(fmpy.__file__)).parent / "c-code"
 """Headers of both versions of FMI."""
-
-FMI = (
-    "fmi2.c",
-    "fmi2_values.c",
-    "fmi3.c",
-    "fmi3_absent.c",
-    "fmi3_values.c",
-    "fmu.c",
-    "fmu_state.c",
-    "fmu_step.c",
-    "fmu_switch.c",
-    "resource_file.c",
-)
-COMMON = ("binary.c", "checksum.c", "create.c", "model.c", "state.c", "variables.c")
-ON_TRACK = (
-    "basis.c",
-    "characteristic.c",
-    "curve.c",
-    "dense.c",
-    "exponential.c",
-    "increments.c",
-    "laws.c",
-    "laws_setup.c",
-    "observation.c",
-    "operator.c",
-    "operator_step.c",
-    "preloaded_pad.c",
-    "rail_point.c",
-    "rows.c",
-    "static_start.c",
-    "supports.c",
-    "table_file.c",
-    "track_memory.c",
-    "track_setup.c",
-    "window.c",
-    "window_shift.c",
-)
-TRACK = (*ON_TRACK, "track.c", "track_derivative.c")
-MOTION = ("curve.c", "motion.c", "table_file.c")
-SURFACES = ("curve.c", "flat.c", "surfaces.c", "table_file.c", "tread.c")
-SUSPENSION = ("suspension.c", "suspension_setup.c")
-VEHICLE = (
-    *dict.fromkeys((*MOTION, *SURFACES)),
-    *SUSPENSION,
-    "excitation.c",
-    "suspended_vehicle.c",
-    "vehicle.c",
-    "vehicle_outputs.c",
-    "vehicle_setup.c",
-    "wheel.c",
-)
-TRACK_CONTACT = (
-    *dict.fromkeys((*ON_TRACK, *SURFACES)),
-    "contact_memory.c",
-    "contact_solution.c",
-    "contact_step.c",
-    "continuation.c",
-    "track_contact.c",
-)
-MASSES = (*MOTION, *SUSPENSION, "dense.c", "masses.c", "masses_setup.c", "suspended_masses.c")
-MODELS = {
-    name: (*FMI, *COMMON, *own)
-    for name, own in (
-        ("track", TRACK),
-        ("vehicle", VEHICLE),
-        ("track_contact", TRACK_CONTACT),
-        ("masses", MASSES),
-    )
-}
-"""Sources of every model."""
 
 LANGUAGE = ("-std=c11", "-Wall", "-Wextra", "-Wconversion", "-Wpedantic", "-Wshadow", "-Werror")
 ARITHMETIC = ("-O3", "-ffp-contract=off", "-fno-math-errno")
@@ -162,7 +94,7 @@ def compile_library(model: str, target: str, *, name: str, extra: Sequence[str] 
     Parameters
     ----------
     model : str
-        A key of `MODELS`.
+        A key of `model_sources.MODELS`.
     target : str
         A key of `TARGETS`.
     name : str

@@ -12,7 +12,8 @@ from fmu_src.python.basis_cache import cached_basis
 from fmu_src.python.masses_variables import declare_masses
 from fmu_src.python.model_slave import LINEAR_INPUTS
 from fmu_src.python.track_contact_variables import declare_track_contact
-from fmu_src.python.track_variables import SLEEPER, TABLE_1, declare_track
+from fmu_src.python.track_parameters import SLEEPER, TABLE_1
+from fmu_src.python.track_variables import declare_track
 from fmu_src.python.variables import Variable
 from fmu_src.python.vehicle_variables import declare_vehicle
 from track_fmu.assembly import assemble

@@ -9,7 +9,8 @@ from functools import partial
 from fmu_src.python.masses_variables import declare_masses
 from fmu_src.python.model_slave import LINEAR_INPUTS
 from fmu_src.python.track_contact_variables import declare_track_contact
-from fmu_src.python.track_variables import SLEEPER, TABLE_1, declare_track
+from fmu_src.python.track_parameters import SLEEPER, TABLE_1
+from fmu_src.python.track_variables import declare_track
 from fmu_src.python.variables import Value, Variable
 from fmu_src.python.vehicle_variables import declare_vehicle
 from track_fmu.parameters import TrackParameters
@@ -52,7 +53,7 @@ class NativeModel:
     Attributes
     ----------
     kind : str
-        Its key in `compiler.MODELS`.
+        Its key in `model_sources.MODELS`.
     name : str
         Model name and identifier.
     description : str

@@ -12,11 +12,12 @@ from xml.etree.ElementTree import ParseError, fromstring
 import track_fmu
 from fmu_src.archive import content_hash
 
-from .compiler import MODELS, TARGETS, source_files
+from .compiler import TARGETS, source_files
 from .documentation import document
 from .icon import icon
 from .library_cache import cached_library
 from .model_description import describe_fmi2, describe_fmi3
+from .model_sources import MODELS
 from .models import NativeModel, described
 from .terminals import describe_sources, describe_terminals
 from .universal import universal_library

@@ -19,7 +19,15 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from track_fmu import assembly, beam_element, eigensolver, modal, sleeper
+from track_fmu import (
+    assembly,
+    banded_polynomial,
+    beam_element,
+    eigensolver,
+    modal,
+    modal_subspace,
+    sleeper,
+)
 from track_fmu.assembly import TrackMatrices
 from track_fmu.modal import ModalBasis, compute_basis
 from track_fmu.parameters import TrackParameters
@@ -29,7 +37,15 @@ DIGEST_SIZE = 32  # bytes of a SHA-256 before the content
 # read while the modules are being loaded: the folder of an FMU may be gone later
 PROGRAM = b"".join(
     Path(str(module.__file__)).read_bytes()
-    for module in (beam_element, sleeper, assembly, eigensolver, modal)
+    for module in (
+        beam_element,
+        sleeper,
+        assembly,
+        modal_subspace,
+        banded_polynomial,
+        eigensolver,
+        modal,
+    )
 )
 
 

@@ -6,27 +6,23 @@ model. A step that the model refuses is discarded: the reason is logged, the sta
 
 from __future__ import annotations
 
-import ctypes
 import math
-from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
-from enum import IntEnum
-from functools import partial, wraps
-from typing import Any, ClassVar, Protocol
+from functools import partial
+from typing import Any, ClassVar
 from xml.etree.ElementTree import Element
 
-import numpy as np
-from numpy.typing import NDArray
 from pythonfmu import Fmi2Slave, Real
 from pythonfmu.enums import Fmi2Status
 
+from .communication_point import step_complaint
+from .exception_guard import kept_alive
+from .grouped_inputs import GroupedInputs
 from .library_end import end_in_order
 from .model_description import complete
-from .slave_state import SlaveState, from_bytes, to_bytes
+from .model_driver import ModelDriver
+from .slave_state import Phase, SlaveState, from_bytes, to_bytes
 from .variables import Value, Variable, make_scalar
-
-FloatArray = NDArray[np.float64]
-TIME_TOLERANCE = 1e-9  # relative; a master's and a slave's sums of steps may differ by rounding
 
 LINEAR_INPUTS = Variable(
     name="linear_inputs",
@@ -37,27 +33,8 @@ LINEAR_INPUTS = Variable(
 )
 
 
-class Phase(IntEnum):
-    """Where a slave is in its life."""
-
-    INSTANTIATED = 0
-    INITIALISING = 1
-    STEPPING = 2
-
-
-class Model(Protocol):
-    """What a slave needs of a model beyond its own methods."""
-
-    @property
-    def state(self) -> FloatArray:
-        """Copy of the complete state."""
-        ...
-
-    @state.setter
-    def state(self, saved: FloatArray) -> None: ...
-
-
-class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
+@kept_alive
+class ModelSlave(ModelDriver, Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
     """Base class of the slaves; a subclass declares the variables and drives its model.
 
     Class attributes are set by the slave file that a build writes.
@@ -79,51 +56,16 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         self._started = False
         self._parameters = {v.name: v.start for v in self._declared if v.causality == "parameter"}
         self._values_known: tuple[Value, ...] | None = None
-        inputs = [v for v in self._declared if v.causality == "input"]
-        self._inputs: FloatArray = np.array([v.start for v in inputs], dtype=float)
+        self._inputs = GroupedInputs([v for v in self._declared if v.causality == "input"])
         self._outputs: dict[str, Sequence[float]] = {}
-        self._groups: dict[str, FloatArray] = {}
-        for i, variable in enumerate(inputs):
-            if variable.index == 0:
-                size = sum(other.group == variable.group for other in inputs)
-                self._groups[variable.group] = self._inputs[i : i + size]
-        place = {v.name: i for i, v in enumerate(inputs)}
         for variable in self._declared:
-            self._register(variable, place)
+            self._register(variable)
         # by value reference; the generic way of pythonfmu costs more than a step of the model
         self._real_getters = {
             reference: scalar.getter
             for reference, scalar in self.vars.items()
             if isinstance(scalar, Real)
         }
-
-    @abstractmethod
-    def declare(self) -> Sequence[Variable]:
-        """All variables of the FMU; the inputs of a group stand together, in ascending index."""
-
-    @abstractmethod
-    def make_model(self, parameters: Mapping[str, Any]) -> Model:
-        """Make the model; a ValueError says what is wrong with the parameters."""
-
-    @abstractmethod
-    def start_model(self, model: Any, time: float, inputs: Mapping[str, FloatArray]) -> None:  # noqa: ANN401 - the subclass's own model
-        """Put the model in its initial state for the given inputs."""
-
-    @abstractmethod
-    def step_model(
-        self,
-        model: Any,  # noqa: ANN401 - the subclass's own model
-        time: float,
-        step_size: float,
-        inputs: Mapping[str, FloatArray],
-        *,
-        linear: bool,
-    ) -> None:
-        """Advance the model; a ValueError or RuntimeError says why the step is impossible."""
-
-    @abstractmethod
-    def read_model(self, model: Any, group: str) -> Sequence[float]:  # noqa: ANN401 - as above
-        """Outputs of a group, in the order of their index."""
 
     # what pythonfmu calls
 
@@ -155,23 +97,15 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         if self._phase != Phase.STEPPING:
             self.log("a step comes after the initialisation", Fmi2Status.discard)
             return False
-        if not math.isclose(current_time, self._time, rel_tol=TIME_TOLERANCE, abs_tol=1e-12):
-            self.log(
-                f"a step from {current_time!r} s does not continue from "
-                f"{self._time!r} s; restore the state of that time first",
-                Fmi2Status.discard,
-            )
-            return False
-        if step_size > 0.0 and current_time + step_size == current_time:
-            self.log(
-                f"a step of {step_size:g} s from {current_time!r} s does not move the time on; use "
-                "a longer one",
-                Fmi2Status.discard,
-            )
+        impossible = step_complaint(self._time, current_time, step_size)
+        if impossible is not None:
+            self.log(impossible, Fmi2Status.discard)
             return False
         before = self._model.state
         try:
-            self.step_model(self._model, self._time, step_size, self._groups, linear=self._linear)
+            self.step_model(
+                self._model, self._time, step_size, self._inputs.groups, linear=self._linear
+            )
         except (ValueError, RuntimeError, ArithmeticError) as error:
             self._model.state = before
             self.log(str(error), Fmi2Status.discard)
@@ -199,7 +133,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
             phase=self._phase,
             time=self._time,
             parameters=self._values(),
-            inputs=self._inputs.copy(),
+            inputs=self._inputs.values.copy(),
             model=self._model.state if self._started else None,
         )
 
@@ -212,7 +146,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         if state.phase != Phase.INSTANTIATED and self._made_from != state.parameters:
             self._make_model()
         self._phase, self._time = Phase(state.phase), state.time
-        self._inputs[:] = state.inputs
+        self._inputs.values[:] = state.inputs
         self._started = state.model is not None
         if state.model is not None:
             self._model.state = state.model
@@ -232,15 +166,16 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
     def _identity(self) -> str:
         return f"{self.modelName} {self.build}"
 
-    def _register(self, variable: Variable, place: Mapping[str, int]) -> None:
+    def _register(self, variable: Variable) -> None:
         scalar = make_scalar(variable)
         name = variable.name
         if variable.causality == "parameter":
             scalar.getter = lambda: self._parameters[name]
             scalar.setter = partial(self._set_parameter, name)
         elif variable.causality == "input":
-            scalar.getter = partial(self._inputs.item, place[name])
-            scalar.setter = partial(self._set_input, place[name])
+            place = self._inputs.places[name]
+            scalar.getter = partial(self._inputs.values.item, place)
+            scalar.setter = partial(self._set_input, place)
         else:
             scalar.getter = self._reader(variable.group, variable.index)
         self.register_variable(scalar, nested=False)
@@ -278,7 +213,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         return self._values_known
 
     def _set_input(self, place: int, value: float) -> None:
-        self._inputs[place] = value
+        self._inputs.values[place] = value
         self._note_change()
 
     def _note_change(self) -> None:
@@ -300,7 +235,7 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
             if self._made_from != self._values():
                 self._make_model()
             try:
-                self.start_model(self._model, self._time, self._groups)
+                self.start_model(self._model, self._time, self._inputs.groups)
             except (ValueError, RuntimeError) as error:
                 raise self._logged(error) from error
             self._started = True
@@ -309,36 +244,3 @@ class ModelSlave(Fmi2Slave):  # type: ignore[misc]  # pythonfmu is not typed
         """Log why the slave cannot be initialised, and the error to raise."""
         self.log(str(error), Fmi2Status.error)
         return ValueError(str(error))
-
-
-def _keep_alive(method: Callable[..., Any]) -> Callable[..., Any]:
-    """Keep the slave alive when a method raises.
-
-    For every exception pythonfmu 0.7 gives back the references to class, instance and log, and
-    once more when the instance is freed; without another set of references that is a crash.
-    """
-
-    @wraps(method)
-    def guarded(self: ModelSlave, *arguments: Any) -> Any:  # noqa: ANN401 - whatever it takes
-        try:
-            return method(self, *arguments)
-        except Exception:
-            for owned in (type(self), self, self.log_queue):
-                ctypes.pythonapi.Py_IncRef(ctypes.py_object(owned))
-            raise
-
-    return guarded
-
-
-for _name in (
-    "setup_experiment",
-    "enter_initialization_mode",
-    "exit_initialization_mode",
-    "do_step",
-    "terminate",
-    *(f"{access}_{kind}" for access in ("get", "set") for kind in
-      ("real", "integer", "boolean", "string")),
-    "_get_fmu_state",
-    "_set_fmu_state",
-):  # fmt: skip
-    setattr(ModelSlave, _name, _keep_alive(getattr(ModelSlave, _name)))

@@ -27,8 +27,12 @@ from .vehicle_slave import VehicleSlave
 
 SHARED = (
     "__init__.py",
+    "communication_point.py",
+    "exception_guard.py",
+    "grouped_inputs.py",
     "library_end.py",
     "model_description.py",
+    "model_driver.py",
     "model_slave.py",
     "slave_state.py",
     "tables.py",
@@ -37,6 +41,7 @@ SHARED = (
 TRACK_MODULES = (
     "track_slave.py",
     "track_variables.py",
+    "track_parameters.py",
     "track_making.py",
     "track_laws.py",
     "basis_cache.py",

@@ -11,6 +11,7 @@ from __future__ import annotations
 import struct
 import zlib
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,14 @@ from .variables import Value
 MAGIC = b"RCST"
 VERSION = 1
 MISSING = 0xFFFFFFFF
+
+
+class Phase(IntEnum):
+    """Where a slave is in its life."""
+
+    INSTANTIATED = 0
+    INITIALISING = 1
+    STEPPING = 2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,7 +7,8 @@ from dataclasses import replace
 from track_fmu.parameters import TrackParameters
 
 from .model_slave import LINEAR_INPUTS
-from .track_variables import position_inputs, track_outputs, track_parameters
+from .track_parameters import track_parameters
+from .track_variables import position_inputs, track_outputs
 from .variables import Variable
 from .vehicle_variables import (
     WheelOutput,

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Annotated
 
-from ..fields import Number, check_fields
+from ..field_rules import Number
+from ..fields import check_fields
 
 TEST_SITE_RATE = 6000.0
 """Sampling frequency of the test site of Nielsen & Oscarsson (2004), section 4 [Hz]."""

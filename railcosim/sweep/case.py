@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias, cast
 
 from ..builds import has_own_fmu, usual_build
 from ..coupled_system import with_steps_for
-from ..fields import Choice, check_fields
+from ..field_rules import Choice
+from ..fields import check_fields
 from ..input_tables import check_profiles
 from ..motion import speed_law
 from ..start_values import track_constants

@@ -3,8 +3,9 @@ import zipfile
 import pytest
 
 from build_fmus import Structure, ensure_native_fmus
-from fmu_src.native.compiler import MODELS, TARGETS, compile_library, this_target
+from fmu_src.native.compiler import TARGETS, compile_library, this_target
 from fmu_src.native.model_resources import masses_resource, track_resource, vehicle_resource
+from fmu_src.native.model_sources import MODELS
 from track_fmu.parameters import TrackParameters
 
 from .contact_twins import ContactPair, MassesPair

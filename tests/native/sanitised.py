@@ -7,7 +7,8 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from fmu_src.native.compiler import ARITHMETIC, HEADERS, LANGUAGE, MODELS, SOURCES
+from fmu_src.native.compiler import ARITHMETIC, HEADERS, LANGUAGE, SOURCES
+from fmu_src.native.model_sources import MODELS
 
 FUZZER = Path(__file__).with_name("fuzz")
 CHECKS = {

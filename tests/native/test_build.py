@@ -11,7 +11,8 @@ from fmu_src.native.compiler import TARGETS, CompilationError, this_target
 from fmu_src.native.library_cache import cached_library
 from fmu_src.native.models import native_vehicle
 from fmu_src.native.packaging import fmu_contents
-from fmu_src.python.track_variables import SPEED, STATIC_WHEEL_LOAD
+from fmu_src.python.track_parameters import SPEED
+from fmu_src.python.track_variables import STATIC_WHEEL_LOAD
 from track_fmu.ballast import PolynomialBallast
 from track_fmu.parameters import TrackParameters
 from track_fmu.track_model import TrackModel, TrackOptions

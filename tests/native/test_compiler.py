@@ -8,7 +8,6 @@ import pytest
 
 from fmu_src.native import compiler
 from fmu_src.native.compiler import (
-    MODELS,
     SOURCES,
     TARGETS,
     CompilationError,
@@ -16,6 +15,7 @@ from fmu_src.native.compiler import (
     compile_program,
     this_target,
 )
+from fmu_src.native.model_sources import MODELS
 
 MAGIC = {".so": b"\x7fELF", ".dll": b"MZ", ".dylib": b"\xcf\xfa\xed\xfe"}
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from fmu_src.native.compiler import MODELS
+from fmu_src.native.model_sources import MODELS
 
 SCRIPT = Path(__file__).with_name("fuzz_calls.py")
 CALLS = 5_000

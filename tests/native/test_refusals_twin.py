@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fmu_src.native.compiler import MODELS
+from fmu_src.native.model_sources import MODELS
 from track_fmu.contact_track import LONGEST_PART
 from track_fmu.step_parts import MOST_PARTS, count_parts
 from track_fmu.track_model import LONGEST_STEP

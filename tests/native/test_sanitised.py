@@ -8,7 +8,7 @@ import os
 
 import pytest
 
-from fmu_src.native.compiler import MODELS
+from fmu_src.native.model_sources import MODELS
 
 from . import sanitised
 

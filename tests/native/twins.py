@@ -6,7 +6,7 @@ import numpy as np
 
 from fmu_src.python.basis_cache import cached_basis
 from fmu_src.python.track_laws import make_laws
-from fmu_src.python.track_variables import track_parameters
+from fmu_src.python.track_parameters import track_parameters
 from fmu_src.python.vehicle_slave import VehicleSlave
 from track_fmu.assembly import assemble
 from track_fmu.reduction import reduce_track

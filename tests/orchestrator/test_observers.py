@@ -128,6 +128,15 @@ def test_ctrl_c_ends_the_run_after_the_step():
     assert signal.getsignal(signal.SIGINT) is handler
 
 
+@pytest.fixture
+def usual_ctrl_c():
+    """Python's own handler, where a shell has started the tests in the background without it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("usual_ctrl_c")
 def test_a_second_ctrl_c_breaks_into_the_step():
     system, recorder = oscillators(), Recorder()
     original = system.participants[1].advance
