@@ -282,3 +282,22 @@ def test_sigterm_ends_a_run_also_where_ctrl_c_is_ignored(monkeypatch, ctrl_c):
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
+
+
+def test_ctrl_c_while_modules_are_loaded_leaves_no_traceback():
+    """The process then ends by the signal itself, as a shell expects."""
+    code = (
+        "import signal, sys\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "class CtrlC:\n"
+        "    def find_spec(self, name, *_):\n"
+        "        if name == 'railcosim.cli':\n"
+        "            signal.raise_signal(signal.SIGINT)\n"
+        "sys.meta_path.insert(0, CtrlC())\n"
+        "from railcosim.__main__ import main\n"
+        "main()\n"
+    )
+    command = [sys.executable, "-c", code]
+    ended = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    assert ended.returncode == -signal.SIGINT
+    assert ended.stderr == ""
