@@ -6,14 +6,9 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from ..errors import InputError
-from ..signals import SIGNALS
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from ..scenario import Scenario
     from ..track_section import Track
 
@@ -40,6 +35,11 @@ class HeldTrack:
     def begin(self) -> float:
         """Position of its first end [m]."""
         return self.first_bay * self.keys.sleeper_spacing
+
+    def sleepers_of(self, scenario: Scenario) -> slice:
+        """Return which of the sleepers a result of the scenario has: those around the flat."""
+        first = scenario.first_bay - self.first_bay
+        return slice(first, first + scenario.track.bays - 1)
 
 
 def held_track(scenario: Scenario) -> HeldTrack:
@@ -72,23 +72,3 @@ def held_track(scenario: Scenario) -> HeldTrack:
     pairs = math.ceil(bays * track.retained_pairs / track.bays)
     keys = replace(track, bays=bays, endless=False, mode_pairs=pairs)
     return HeldTrack(keys=keys, first_bay=first)
-
-
-def show_sleepers(
-    series: dict[str, NDArray[np.float64]], held: HeldTrack, scenario: Scenario
-) -> None:
-    """Leave, in place, the sleepers that a result of the scenario has: those around the flat.
-
-    Parameters
-    ----------
-    series : dict of str to ndarray
-        Those of sleepers of shape (n, sleepers held); afterwards (n, sleepers).
-    held : HeldTrack
-        What is held.
-    scenario : Scenario
-        What was run.
-    """
-    first = scenario.first_bay - held.first_bay
-    for signal in SIGNALS:
-        if signal.dim == "sleeper":
-            series[signal.name] = series[signal.name][:, first : first + scenario.track.bays - 1]

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..signals import SLEEPER_SIGNALS
+from ..signals import SIGNALS, SLEEPER_SIGNALS
 from .moments import WheelLoads, moments_between
 
 if TYPE_CHECKING:
@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 SLEEPER_MOMENTS = tuple(signal.name for signal in SLEEPER_SIGNALS)
 """At rail seats and centres."""
 
+OF_SLEEPERS = {item.name for item in (*SIGNALS, *SLEEPER_SIGNALS) if item.dim == "sleeper"}
+"""Series with a column a sleeper."""
+
 
 class Observer:
     """Collects series at given times while the steps of an integration go over them.
@@ -31,12 +34,14 @@ class Observer:
     times : ndarray, shape (m,)
         Increasing, within the run [s].
     gauges : ndarray, shape (gauges,)
-        Positions of the bending moments that are wanted [m].
+        Positions of the bending moments that are wanted, from the first end of the track [m].
+    sleepers : slice
+        Those that are wanted.
     """
 
-    def __init__(self, times: Array, gauges: Array) -> None:
+    def __init__(self, times: Array, *, gauges: Array, sleepers: slice) -> None:
         self.times = times
-        self._gauges = gauges
+        self._gauges, self._sleepers = gauges, sleepers
         self._seen = 0
         self._parts: list[Mapping[str, Array]] = []
 
@@ -47,7 +52,13 @@ class Observer:
         times = self.times[first : self._seen].tolist()
         if times:
             states = [solution(time) for time in times]
-            self._parts.append(_observe(system, self._gauges, times, states))
+            seen = _observe(system, self._gauges, times, states)
+            self._parts.append(
+                {  # copies, so that the other sleepers of a long track are let go
+                    name: values[self._sleepers].copy() if name in OF_SLEEPERS else values
+                    for name, values in seen.items()
+                }
+            )
 
     def series(self) -> dict[str, Array]:
         """Return every series by its name in a result, shape (m, wheels or sleepers or gauges)."""

@@ -22,7 +22,7 @@ from ..track_data import track_parameters
 from ..watched_control import Progress
 from .course import course_of
 from .full_track import FullTrack, port_incidence
-from .held_track import held_track, show_sleepers
+from .held_track import held_track
 from .integration import integrate
 from .integrators import Accuracy
 from .laws import HertzLaw
@@ -114,8 +114,11 @@ def solve(
         course = course_of(scenario, surfaces)
         system, state = make_system(scenario, held, course, model=model, contact_form=contact_form)
         stop = course.stop_time
-        gauges = np.array(scenario.gauge_positions) - held.begin
-        observer = Observer(_sampling(times, stop), gauges)
+        observer = Observer(
+            _sampling(times, stop),
+            gauges=np.array(scenario.gauge_positions) - held.begin,
+            sleepers=held.sleepers_of(scenario),
+        )
         effort = integrate(
             system,
             state,
@@ -126,12 +129,10 @@ def solve(
             else lambda now, step: report(Progress(now, stop, step, 0)),
         )
     attributes = {"model": model, "contact_form": contact_form, **programs()}
-    series = observer.series()
-    show_sleepers(series, held, scenario)
     return label(
         scenario,
         times=observer.times,
-        series=series,
+        series=observer.series(),
         surfaces=surfaces,
         attempts={
             name: np.empty(0, "U8" if name == "cause" else float) for name in ATTEMPT_COLUMNS

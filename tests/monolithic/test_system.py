@@ -128,6 +128,30 @@ def test_rail_velocity_is_the_derivative_of_rail_displacement(solutions):
         assert np.abs(slope - ours).mean() < 5e-3 * np.abs(ours).max()
 
 
+def test_every_bump_stop_is_met_and_left_where_it_is():
+    """As often as the compression of the only primary spring passes its clearance."""
+    clearance = 1e-5
+    passage = solve(
+        small(
+            "vehicle.model=suspended",
+            "flat.depth=0.4e-3",
+            f"suspension.primary_clearance={clearance}",
+            "suspension.primary_stop_stiffness=2e7",
+        )
+    )
+    assert (passage["gap"] < 0.0).all()
+    bogie = passage["bogie_displacement"].sel(bogie=1).to_numpy()
+    wheel = passage["wheel_displacement"].sel(wheel=1).to_numpy()
+    beyond = bogie - (wheel - wheel[0]) - clearance
+    switches = np.flatnonzero(np.diff(beyond > 0.0))
+    assert passage.attrs["switches"] == len(switches) >= 2
+    # spring, damper and stop: the force of what the bodies do
+    rate = np.gradient(beyond, passage["time"].to_numpy(), edge_order=2)
+    expected = 1.2e6 * (beyond + clearance) + 4e3 * rate + 2e7 * np.maximum(beyond, 0.0)
+    force = passage["primary_force"].sel(wheel=1).to_numpy()
+    assert force - force[0] == pytest.approx(expected, abs=2e-3 * np.abs(expected).max())
+
+
 def test_a_tighter_tolerance_changes_little():
     scenario = small("run.approach=0.1", "run.departure=0.1")
     rough, fine = (solve(scenario, accuracy=Accuracy(atol=atol)) for atol in (1e-8, 1e-9))

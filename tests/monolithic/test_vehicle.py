@@ -159,7 +159,7 @@ def test_energy(keys, damped):
         place, rate = np.split(state, 2)
         return np.concatenate((rate, vehicle.accelerations(place, rate, np.zeros(WHEELS))))
 
-    solution = solve_ivp(rates, (0.0, 0.15), start, rtol=1e-9, atol=1e-12, method="DOP853")
+    solution = solve_ivp(rates, (0.0, 0.1), start, rtol=1e-8, atol=1e-11, method="DOP853")
     stored = np.array([potential(place, flexible=bool(keys)) for place in solution.y[:size].T])
     energy = stored + 0.5 * (masses[:, None] * solution.y[size:] ** 2).sum(axis=0)
     assert stored.max() > 0.2 * energy[0]
