@@ -23,9 +23,20 @@ if TYPE_CHECKING:
 SAMPLES = 201
 """Displacements at which the curves are sampled."""
 
+OWN = {
+    True: ("polynomial", "load by the polynomial of the scenario, Eq. (27)"),
+    False: ("ballast", "load by the ballast of the scenario"),
+}
+"""Name and meaning of the scenario's curve, by whether it is a polynomial."""
 
-def ballast_polynomial(track: Track) -> Polynomial:
-    """Return Eq. (27) with the coefficients of a scenario; without them where it is linear."""
+
+def ballast_polynomial(track: Track) -> Polynomial | None:
+    """Return Eq. (27) with the coefficients of a scenario, without them where it is linear.
+
+    None where the ballast is no polynomial.
+    """
+    if track.ballast not in {"linear", "state_dependent"}:
+        return None
     bent = track.ballast != "linear"
     return Polynomial(
         alpha=track.ballast_alpha * bent,
@@ -35,13 +46,36 @@ def ballast_polynomial(track: Track) -> Polynomial:
     )
 
 
+def own_load(track: Track, displacement: FloatArray) -> FloatArray:
+    """Return the load of a scenario's ballast [N], without factors and gaps.
+
+    Parameters
+    ----------
+    track : Track
+        Its law.
+    displacement : (n,) float array
+        Of at least 0 [m].
+
+    Raises
+    ------
+    InputError
+        For a table that cannot be used.
+    """
+    polynomial = ballast_polynomial(track)
+    if polynomial is not None:
+        return polynomial.force(displacement)
+    from .monolithic.curves import ballast_curve  # noqa: PLC0415 - loads scipy.interpolate
+
+    return ballast_curve(track).jet(displacement).load
+
+
 def compute_curves(scenario: Scenario, law: SecantLaw, loads: FloatArray) -> xr.Dataset:
     """Sample the load-displacement curves from no load to the largest one.
 
     Parameters
     ----------
     scenario : Scenario
-        Its polynomial and its linear ballast.
+        Its ballast where all supports are alike, and its linear ballast.
     law : SecantLaw
         Measured law, Eq. (26).
     loads : (n,) float array
@@ -50,11 +84,18 @@ def compute_curves(scenario: Scenario, law: SecantLaw, loads: FloatArray) -> xr.
     Returns
     -------
     xarray.Dataset
-        Loads over ``displacement`` and the markers over ``load``.
+        Loads over ``displacement`` and the markers over ``load``. The scenario's own load is
+        ``force_polynomial``, or ``force_ballast`` where that is none.
+
+    Raises
+    ------
+    InputError
+        For a table that cannot be used.
     """
     markers = law.displacement(loads)
     displacement = np.linspace(0.0, float(markers[-1]), SAMPLES)
-    polynomial, fitted = ballast_polynomial(scenario.track), fit_polynomial(law, loads)
+    fitted = fit_polynomial(law, loads)
+    name, described = OWN[ballast_polynomial(scenario.track) is not None]
 
     def force(values: FloatArray, meaning: str) -> tuple[str, FloatArray, dict[str, str]]:
         return "displacement", values, {"units": "N", "long_name": meaning}
@@ -62,9 +103,7 @@ def compute_curves(scenario: Scenario, law: SecantLaw, loads: FloatArray) -> xr.
     return xr.Dataset(
         {
             "force_law": force(law.force(displacement), "load by the measured law, Eq. (26)"),
-            "force_polynomial": force(
-                polynomial.force(displacement), "load by the polynomial of the scenario, Eq. (27)"
-            ),
+            f"force_{name}": force(own_load(scenario.track, displacement), described),
             "force_fitted": force(
                 fitted.force(displacement), "load by a polynomial fitted to the law"
             ),
@@ -101,6 +140,8 @@ def curve_numbers(
 ) -> dict[str, Any]:
     """Return the coefficients, how far they are from the law, and the loss factor; SI units.
 
+    The scenario's are under ``polynomial``; where its ballast is none, they are ``null``.
+
     Parameters
     ----------
     scenario, law, loads
@@ -111,28 +152,26 @@ def curve_numbers(
     Raises
     ------
     InputError
-        For a frequency that is not above zero.
+        For a frequency that is not above zero, or a table that cannot be used.
     """
     if not (np.isfinite(frequency) and frequency > 0.0):
         raise InputError(f"--frequency is {frequency:g} Hz but must be above 0 Hz")
     track = scenario.track
     displacement = law.displacement(loads)
 
-    def described(polynomial: Polynomial) -> dict[str, float]:
-        deviation = np.max(np.abs(polynomial.force(displacement) - loads))
-        return {
-            "alpha": polynomial.alpha,
-            "beta": polynomial.beta,
-            "delta": polynomial.delta,
-            "largest_deviation": float(deviation),
-        }
+    def described(polynomial: Polynomial | None, load: FloatArray) -> dict[str, float | None]:
+        names = ("alpha", "beta", "delta")
+        own = {name: None if polynomial is None else getattr(polynomial, name) for name in names}
+        return own | {"largest_deviation": float(np.max(np.abs(load - loads)))}
+
+    fitted = fit_polynomial(law, loads)
 
     return {
         "law": {"slope": law.slope, "stiffness": law.stiffness},
         "largest_load": float(loads[-1]),
         "largest_displacement": float(displacement[-1]),
-        "polynomial": described(ballast_polynomial(track)),
-        "fitted": described(fit_polynomial(law, loads)),
+        "polynomial": described(ballast_polynomial(track), own_load(track, displacement)),
+        "fitted": described(fitted, fitted.force(displacement)),
         "loss_factor": viscous_loss_factor(
             frequency=frequency, damping=track.ballast_damping, stiffness=track.ballast_stiffness
         ),
@@ -149,7 +188,8 @@ def curve_table(numbers: dict[str, Any]) -> Table:
     table.add_column("unit")
     both = numbers["polynomial"], numbers["fitted"]
     for name, unit in (("alpha", "N/m2"), ("beta", "N/m3"), ("delta", "N/m4")):
-        table.add_row(name, *(f"{item[name]:.4g}" for item in both), unit)
+        cells = ("-" if item[name] is None else f"{item[name]:.4g}" for item in both)
+        table.add_row(name, *cells, unit)
     load = 1e-3 * numbers["largest_load"]
     table.add_row(
         f"largest deviation from Eq. (26) up to {load:g} kN",

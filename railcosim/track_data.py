@@ -8,36 +8,24 @@ from typing import TYPE_CHECKING
 from track_fmu.ballast import PolynomialBallast
 from track_fmu.parameters import TrackParameters
 
-from .errors import InputError
-from .track_section import Track
-from .variation import Variation
+from .support_values import support_properties
 
 if TYPE_CHECKING:
     from .scenario import Scenario
-
-PAPER = ("ballast_tangent_damping", "ballast_pulls", "ballast_mass", "pad", "supports")
-"""Keys of the track without which its laws are those of the paper."""
+    from .track_section import Track
 
 
-def require_paper_laws(scenario: Scenario, what: str) -> None:
-    """Refuse laws of pads and ballast, and supports that differ, where they are not known.
+def is_linear(scenario: Scenario) -> bool:
+    """Return whether all pads and all ballast are springs and dampers, whatever their load.
 
     Raises
     ------
     InputError
-        That names the key to leave out.
+        For a table of supports that cannot be used.
     """
-    usual, track = Track(), scenario.track
-    keys = [f"track.{key}" for key in PAPER if getattr(track, key) != getattr(usual, key)]
-    if track.ballast not in ("state_dependent", "linear"):
-        keys.insert(0, "track.ballast")
-    if scenario.variation != Variation():
-        keys.append("[variation]")
-    if keys:
-        raise InputError(
-            f"{what} knows the ballast and the pads of the paper only, the same at every support: "
-            f"leave {keys[0]} out"
-        )
+    track, own = scenario.track, support_properties(scenario)
+    opens = not track.ballast_pulls or own["gap"].any() or not own["fastened"].all()
+    return track.ballast == "linear" and track.pad == "linear" and not opens
 
 
 def track_parameters(track: Track) -> TrackParameters:

@@ -21,6 +21,8 @@ FORCE_LIMIT = 0.01
 PEAK_LIMIT = 0.003
 """Largest relative difference of the peak contact forces."""
 
+SUSPENSION_LIMIT = 0.01
+"""Largest difference of suspension forces at any time, over their largest change in the run."""
 
 FINE_STEP = 2e-5
 """Macro steps whose error is far below the limits [s]."""
@@ -130,13 +132,18 @@ def agreements(cosimulation: xr.Dataset, monolith: xr.Dataset) -> list[Agreement
     Returns
     -------
     list of Agreement
-        The force of every wheel at all times; the peak force of the flat's wheel, where the run
-        reaches the flat.
+        The force of every wheel at all times; those of both suspensions, if there are any; the
+        peak force of the flat's wheel, where the run reaches the flat.
     """
     scenario = from_toml(cosimulation.attrs["scenario"])
     both = side_by_side(cosimulation, monolith)
     found = [
         _worst(both, cosimulation, scenario, wheel) for wheel in cosimulation["wheel"].to_numpy()
+    ]
+    found += [
+        _worst_suspension(cosimulation, monolith, stage)
+        for stage in ("primary", "secondary")
+        if f"{stage}_force" in cosimulation
     ]
     peaks = summarise(cosimulation), summarise(monolith)
     ours, theirs = (peak.peak_contact_force for peak in peaks)
@@ -184,4 +191,22 @@ def _worst(both: xr.Dataset, passage: xr.Dataset, scenario: Scenario, wheel: int
         relative_to="static load",
         time=float(here["time"]),
         distance=position - scenario.flat_position,
+    )
+
+
+def _worst_suspension(cosimulation: xr.Dataset, monolith: xr.Dataset, stage: str) -> Agreement:
+    """Where the forces of a suspension differ most, whichever wheel or bogie that is at."""
+    ours, theirs = (passage[f"{stage}_force"].to_numpy() for passage in (cosimulation, monolith))
+    difference = ours - theirs
+    time, which = np.unravel_index(np.abs(difference).argmax(), difference.shape)
+    change = float(np.abs(theirs - theirs[0]).max()) or float(np.abs(theirs[0]).max())
+    return Agreement(
+        quantity=f"{stage} suspension",
+        cosimulation=float(ours[time, which]),
+        monolith=float(theirs[time, which]),
+        difference=float(difference[time, which]) / change,
+        limit=SUSPENSION_LIMIT,
+        relative_to="largest change of its forces",
+        time=float(cosimulation["time"][time]),
+        distance=float(cosimulation["distance"][time]),
     )

@@ -13,7 +13,6 @@ from ..load_displacement import LARGEST_LOAD, LOADS, SLOPE, SecantLaw, equidista
 from ..output import write_dataset, write_figure
 from ..scenario_file import read_scenario
 from ..secant_data import read_secant_data
-from ..track_data import require_paper_laws
 from .endings import exit_codes
 from .options import Json, Output, Overrides, Plot, ScenarioFile, check_output, check_plot
 
@@ -39,12 +38,11 @@ def load_displacement(
     plot: Plot = None,
     as_json: Json = False,
 ) -> None:
-    """Compare the polynomial of the state-dependent ballast with the law that it stands for."""
+    """Compare the ballast of a scenario with the law measured by secant stiffness."""
     with exit_codes():
         case = read_scenario(scenario, overrides or ())
         check_output(output)
         check_plot(plot)
-        require_paper_laws(case, "this comparison")
         law = SecantLaw(slope=slope, stiffness=case.track.ballast_stiffness)
         at = equidistant_loads(largest_load, loads)
         numbers = curve_numbers(case, law, at, frequency)

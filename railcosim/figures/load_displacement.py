@@ -34,10 +34,12 @@ def draw_load_displacement(curves: xr.Dataset, measured: SecantData | None = Non
     x = 1e3 * curves["displacement"].to_numpy()
     for name, label, style, colour in (
         ("force_polynomial", "polynomial, Eq. (27)", "-", BLUE),
+        ("force_ballast", "the scenario's", "-", BLUE),
         ("force_fitted", "polynomial fitted to the markers", "--", OTHERS[0]),
         ("force_linear", "linear", ":", QUIET),
     ):
-        axes.plot(x, 1e-3 * curves[name].to_numpy(), style, color=colour, label=label)
+        if name in curves:
+            axes.plot(x, 1e-3 * curves[name].to_numpy(), style, color=colour, label=label)
     axes.plot(
         1e3 * curves["load_displacement"].to_numpy(),
         1e-3 * curves["load"].to_numpy(),

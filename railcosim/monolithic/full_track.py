@@ -34,10 +34,14 @@ class FullTrack:
     parameters : TrackParameters
         The track.
     matrices : TrackMatrices
-        The same, assembled.
+        The same, assembled; its supports may differ.
+    pad_ports : bool
+        Whether pads have ports.
     """
 
-    def __init__(self, parameters: TrackParameters, matrices: TrackMatrices) -> None:
+    def __init__(
+        self, parameters: TrackParameters, matrices: TrackMatrices, *, pad_ports: bool
+    ) -> None:
         self.parameters = parameters
         self._matrices = matrices
         size = matrices.numbering.size
@@ -50,10 +54,11 @@ class FullTrack:
         self._factor = cholesky_banded(to_banded(matrices.mass), lower=True)
         self._stiffness = sp.csr_array(matrices.stiffness)
         self._damping = sp.csr_array(matrices.damping)
-        sleepers, nothing = matrices.ballast_incidence.T, sp.csr_array((parameters.supports, size))
-        on_velocity = sp.csc_array(sp.hstack([nothing, sleepers]))
-        self.sleepers = Ports(
-            sp.csc_array(sp.hstack([sleepers, nothing])), on_velocity, on_velocity
+        supports = sp.csr_array(port_incidence(matrices, pad_ports=pad_ports).T)
+        nothing = sp.csr_array(supports.shape)
+        on_velocity = sp.csc_array(sp.hstack([nothing, supports]))
+        self.supports = Ports(
+            sp.csc_array(sp.hstack([supports, nothing])), on_velocity, on_velocity
         )
         self._dofs = np.hstack([matrices.numbering.rail[:-1], matrices.numbering.rail[1:]])
         self._moments = moment_operators(parameters, matrices)
@@ -125,7 +130,8 @@ class FullTrack:
         """See `LinearTrack.bent_sleepers`: moments from the forces at an end of an element."""
         own = self._sleepers
         displacement, velocity = states[: self._size], states[self._size :]
-        spread = own.spread @ loads[len(loads) - own.spread.shape[1] :]
+        nodal = 2 * (self.parameters.elements + 1)
+        spread = own.spread @ loads[nodal : nodal + own.spread.shape[1]]
         inertia = own.inertial @ rates[self._size :]
         seen = own.static @ displacement + own.viscous @ velocity + inertia - spread
         at_seat, at_centre, mean = np.split(np.asarray(seen), 3)
@@ -135,3 +141,10 @@ class FullTrack:
             mean_rate=np.asarray(own.static @ velocity)[2 * len(mean) :],
             moments=(at_seat, at_centre),
         )
+
+
+def port_incidence(matrices: TrackMatrices, *, pad_ports: bool) -> sp.csc_array:
+    """Return what deforms ballast, and pads if they have ports, one column a port, (N, ports)."""
+    if not pad_ports:
+        return matrices.ballast_incidence
+    return sp.csc_array(sp.hstack([matrices.ballast_incidence, matrices.pad_incidence]))

@@ -1,4 +1,4 @@
-"""Integration over the way, restarted wherever what is given or the contact is not smooth."""
+"""Integration over the way, begun anew where what is given, a contact or a bump stop has a kink."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from .system import CoupledSystem
 
 FIRST_STEP = 1e-6
-"""After the start and after every switch of contact [s]."""
+"""After the start and after every switch [s]."""
 
 SWITCH_TOLERANCE = 1e-12
-"""How exactly a switch of contact is found [s]."""
+"""How exactly a switch is found [s]."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -35,7 +35,7 @@ class Effort:
     Attributes
     ----------
     steps, evaluations, factorisations, switches : int
-        Steps; evaluations of the derivative; factorised matrices; switches of contact.
+        Steps; evaluations of the derivative; factorised matrices; switches of contacts and stops.
     """
 
     steps: int = 0
@@ -45,18 +45,18 @@ class Effort:
 
 
 class Switch(NamedTuple):
-    """A wheel that loses or recovers contact.
+    """A wheel that loses or recovers contact, or a bump stop that is met or left.
 
     Attributes
     ----------
     time : float
         When [s].
-    wheel : int or None
-        Which, from 0; None where none does.
+    margin : int or None
+        Which of the margins of the system changes its sign, from 0; None where none does.
     """
 
     time: float
-    wheel: int | None
+    margin: int | None
 
 
 def integrate(
@@ -70,8 +70,9 @@ def integrate(
     """Integrate over the whole way.
 
     Between two kinks of the course everything given is smooth: steps end there and the next one
-    begins anew with the step size kept. They end at every switch of contact, too, where the second
-    derivative of the contact force jumps.
+    begins anew with the step size kept. They end at every switch of a contact, too, where the
+    second derivative of the contact force jumps, and of a bump stop. The kinks of one-sided dampers
+    are left to the integrator.
 
     Parameters
     ----------
@@ -96,29 +97,29 @@ def integrate(
     RunError
         If the integrator gives up.
     """
-    effort, course = Effort(), system.course
+    effort, course = Effort(), system.places.course
     time, step = 0.0, FIRST_STEP
-    apart = system.gaps(time, state) > 0.0
+    apart = system.margins(time, state) > 0.0
     for end in (*course.kinks.tolist(), course.stop_time):
         system = system.moved_to(0.5 * (time + end))
         while time < end:
             solver = start_integrator(
                 system, accuracy, time=time, state=state, end=end, first_step=min(step, end - time)
             )
-            wheel = None
-            while solver.status == "running" and wheel is None:
+            margin = None
+            while solver.status == "running" and margin is None:
                 _take_step(solver)
                 solution = solver.dense_output()
-                switch, wheel = _first_switch(system, solver, solution, apart)
+                switch, margin = _first_switch(system, solver, solution, apart)
                 time = min(switch, solver.t)
                 state = solver.y if time == solver.t else solution(time)
                 observer.see(system, solution, time)
                 effort.steps += 1
                 if report is not None:
                     report(time, solver.t - solver.t_old)
-            step = solver.h_abs if wheel is None else FIRST_STEP
-            if wheel is not None:
-                apart[wheel] = not apart[wheel]
+            step = solver.h_abs if margin is None else FIRST_STEP
+            if margin is not None:
+                apart[margin] = not apart[margin]
                 effort.switches += 1
             effort.evaluations += solver.nfev
             effort.factorisations += solver.nlu
@@ -144,16 +145,16 @@ def _first_switch(
 ) -> Switch:
     """Find the first switch within the last step; ``apart`` is set right where it was rounding."""
     first = Switch(math.inf, None)
-    now = system.gaps(solver.t, solver.y)
-    for wheel in np.flatnonzero((now > 0.0) != apart).tolist():
+    now = system.margins(solver.t, solver.y)
+    for margin in np.flatnonzero((now > 0.0) != apart).tolist():
 
-        def gap(time: float, wheel: int = wheel) -> float:
-            return float(system.gaps(time, solution(time))[wheel])
+        def value(time: float, margin: int = margin) -> float:
+            return float(system.margins(time, solution(time))[margin])
 
-        if gap(solver.t_old) * gap(solver.t) >= 0.0:
-            apart[wheel] = bool(now[wheel] > 0.0)
+        if value(solver.t_old) * value(solver.t) >= 0.0:
+            apart[margin] = bool(now[margin] > 0.0)
             continue
-        found = float(brentq(gap, solver.t_old, solver.t, xtol=SWITCH_TOLERANCE))
+        found = float(brentq(value, solver.t_old, solver.t, xtol=SWITCH_TOLERANCE))
         if found < first.time:
-            first = Switch(found, wheel)
+            first = Switch(found, margin)
     return first

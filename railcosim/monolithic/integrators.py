@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, cast
 
 import numpy as np
 from scipy.integrate import BDF, Radau
 
 from ..errors import InputError
+from .jacobian import jacobian
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -98,7 +100,7 @@ def start_integrator(
         end,
         rtol=accuracy.rtol,
         atol=accuracy.atol * system.scale,
-        jac=system.jacobian,
+        jac=partial(jacobian, system),
         first_step=first_step,
     )
     mass = system.mass

@@ -1,7 +1,8 @@
 """What the coupled system asks of a linear track, whichever coordinates that is written in.
 
 The track is loaded and observed at *ports*: one under each wheel, which travels along the rail,
-and one under each sleeper, where the state-dependent ballast acts. A force ``h`` on a port does
+one under each sleeper, where the state-dependent ballast acts, and one at each pad if the pads bear
+anything beyond springs and dampers. A force ``h`` on a port does
 positive work on its displacement ``d``:
 
     mass y' = matrix y + sum of inputs * h,    d = output y + flexibility h,
@@ -83,15 +84,15 @@ class LinearTrack(Protocol):
         See the module; None is the unit matrix.
     scale : ndarray, shape (n,)
         How large a component of the state is where displacements are one metre.
-    sleepers : Ports
-        Under the sleepers.
+    supports : Ports
+        Under all sleepers, then at all pads if those have ports.
     """
 
     parameters: TrackParameters
     matrix: Matrix
     mass: sp.csc_array | None
     scale: NDArray[np.float64]
-    sleepers: Ports
+    supports: Ports
 
     def begin(
         self, displacement: NDArray[np.float64], velocity: NDArray[np.float64]
@@ -137,7 +138,8 @@ class LinearTrack(Protocol):
         states, rates : ndarray, shape (n, times)
             States and their derivatives.
         loads : ndarray, shape (n_coordinates, times)
-            Forces on deflection and rotation of every node, then on every sleeper [N], [N m].
+            Forces on deflection and rotation of every node, on every sleeper, and on every pad if
+            those have ports [N], [N m].
 
         Returns
         -------

@@ -38,24 +38,35 @@ class ModalTrack:
         The same track, assembled.
     basis : ModalBasis
         Its retained modes.
+    pad_ports : bool
+        Whether pads have ports.
     """
 
     mass: sp.csc_array | None = None
 
-    def __init__(self, reduced: ReducedTrack, matrices: TrackMatrices, basis: ModalBasis) -> None:
+    def __init__(
+        self,
+        reduced: ReducedTrack,
+        matrices: TrackMatrices,
+        basis: ModalBasis,
+        *,
+        pad_ports: bool,
+    ) -> None:
         self.parameters = reduced.parameters
         self._track, self._matrices, self._basis = reduced, matrices, basis
         decay, frequency = np.diag(basis.eigenvalues.real), np.diag(basis.eigenvalues.imag)
         self.matrix: Matrix = np.block([[decay, -frequency], [frequency, decay]])
         largest = np.abs(basis.modes).max(axis=0)
         self.scale = np.tile(SHARE / largest, 2)
-        self._sleeper_shape = reduced.shape[reduced.ballast_rows]
-        self.sleepers = self._ports(self._sleeper_shape)
+        last = reduced.pad_rows if pad_ports else reduced.ballast_rows
+        self._port_rows = slice(reduced.ballast_rows.start, last.stop)
+        shape = reduced.shape[self._port_rows]
+        self.supports = self._ports(shape)
         self._pads = np.asarray(self._ports(reduced.shape[reduced.pad_rows]).output)
-        self._weighted_sleepers = self._sleeper_shape * reduced.weight
+        self._weighted = shape * reduced.weight
         self._constant = Feedthrough(
-            reduced.flexibility[reduced.ballast_rows, reduced.ballast_rows],
-            np.real(self._weighted_sleepers @ self._sleeper_shape.T),
+            reduced.flexibility[self._port_rows, self._port_rows],
+            np.real(self._weighted @ shape.T),
         )
 
     def begin(
@@ -85,13 +96,13 @@ class ModalTrack:
         track, count = self._track, len(elements)
         rows = _rows(elements)
         shape = self._wheel_shape(elements, weights)
-        ports = count + len(self._sleeper_shape)
+        ports = count + len(self._weighted)
         flexibility, mobility = np.empty((ports, ports)), np.empty((ports, ports))
         flexibility[count:, count:], mobility[count:, count:] = self._constant
         answer = np.einsum("nwk,wk->nw", track.flexibility[:, rows], weights)
-        flexibility[count:, :count] = answer[track.ballast_rows]
+        flexibility[count:, :count] = answer[self._port_rows]
         flexibility[:count, :count] = np.einsum("wkv,wk->wv", answer[rows], weights)
-        mobility[count:, :count] = np.real(self._weighted_sleepers @ shape.T)
+        mobility[count:, :count] = np.real(self._weighted @ shape.T)
         mobility[:count, :count] = np.real((shape * track.weight) @ shape.T)
         flexibility[:count, count:] = flexibility[count:, :count].T
         mobility[:count, count:] = mobility[count:, :count].T

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..signals import SLEEPER_SIGNALS
+from ..signals import SIGNALS, SLEEPER_SIGNALS
 from .moments import WheelLoads, moments_between
 
 if TYPE_CHECKING:
@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 SLEEPER_MOMENTS = tuple(signal.name for signal in SLEEPER_SIGNALS)
 """At rail seats and centres."""
 
+OF_SLEEPERS = {item.name for item in (*SIGNALS, *SLEEPER_SIGNALS) if item.dim == "sleeper"}
+"""Series with a column a sleeper."""
+
 
 class Observer:
     """Collects series at given times while the steps of an integration go over them.
@@ -31,12 +34,14 @@ class Observer:
     times : ndarray, shape (m,)
         Increasing, within the run [s].
     gauges : ndarray, shape (gauges,)
-        Positions of the bending moments that are wanted [m].
+        Positions of the bending moments that are wanted, from the first end of the track [m].
+    sleepers : slice
+        Those that are wanted.
     """
 
-    def __init__(self, times: Array, gauges: Array) -> None:
+    def __init__(self, times: Array, *, gauges: Array, sleepers: slice) -> None:
         self.times = times
-        self._gauges = gauges
+        self._gauges, self._sleepers = gauges, sleepers
         self._seen = 0
         self._parts: list[Mapping[str, Array]] = []
 
@@ -47,7 +52,13 @@ class Observer:
         times = self.times[first : self._seen].tolist()
         if times:
             states = [solution(time) for time in times]
-            self._parts.append(_observe(system, self._gauges, times, states))
+            seen = _observe(system, self._gauges, times, states)
+            self._parts.append(
+                {  # copies, so that the other sleepers of a long track are let go
+                    name: values[self._sleepers].copy() if name in OF_SLEEPERS else values
+                    for name, values in seen.items()
+                }
+            )
 
     def series(self) -> dict[str, Array]:
         """Return every series by its name in a result, shape (m, wheels or sleepers or gauges)."""
@@ -79,34 +90,41 @@ def _observe(
     displacement = _columns([now.displacement for now in instants])
     level = _columns([now.level for now in instants])
     own, own_rate = state[parts[0]], rates[parts[0]]
-    positions = _columns([system.course.positions(time) for time in times])
+    positions = _columns([system.places.course.positions(time) for time in times])
     gap = displacement[:w] - level
-    loads, wheel_loads = _loads(system, times, force, positions)
+    loads, wheel_loads = _loads(system, times, force)
     pad, pad_rate = track.pads(own, own_rate, loads)
+    base = system.laws.base
+    pad_force = base.pad_stiffness[:, None] * pad + base.pad_damping[:, None] * pad_rate
+    if system.laws.pads_have_ports:
+        pad_force -= force[len(force) - len(pad) :]
     under, at_gauges = _moments(system, gauges, (own, own_rate, loads), wheel_loads)
     parameters = track.parameters
-    seats = beds = displacement[w:]
-    bed_rate = track.sleepers.output @ own_rate
+    supports = parameters.supports
+    seats = beds = displacement[w : w + supports]
+    bed_rate = (track.supports.output @ own_rate)[:supports]
     of_sleepers: dict[str, Array] = {}
     if parameters.sleeper == "beam":
         seats, beds, bed_rate, moments = track.bent_sleepers(own, own_rate, loads)
         of_sleepers = dict(zip(SLEEPER_MOMENTS, moments, strict=True))
+    bodies = system.vehicle.observe(state[parts[1]], state[parts[2]], rates[parts[2]])
     return of_sleepers | {
+        **bodies,
         "contact_force": force[:w],
         "gap": gap,
         "in_contact": (gap < 0.0).astype(float),
         "wheel_position": positions,
-        "wheel_displacement": state[parts[1]],
-        "wheel_velocity": state[parts[2]],
+        "wheel_displacement": system.wheel_displacements(state),
+        "wheel_velocity": state[parts[2]][:w],
         "rail_displacement": displacement[:w],
         "rail_velocity": _velocities(system, times, states, instants, own_rate),
         "residual_displacement": _columns([now.at_once[:w] for now in instants]),
         "bending_moment_under_wheel": under,
         "sleeper_displacement": seats,
-        "pad_force": parameters.pad_stiffness * pad + parameters.pad_damping * pad_rate,
-        "ballast_force": parameters.ballast_stiffness * beds
-        + parameters.ballast_damping * bed_rate
-        - force[w:],
+        "pad_force": pad_force,
+        "ballast_force": base.ballast_stiffness[:, None] * beds
+        + base.ballast_damping[:, None] * bed_rate
+        - force[w : w + supports],
         "bending_moment": at_gauges,
     }
 
@@ -127,20 +145,18 @@ def _velocities(
     )
 
 
-def _loads(
-    system: CoupledSystem, times: Sequence[float], force: Array, positions: Array
-) -> tuple[Array, WheelLoads]:
-    """Forces on nodes and sleepers, shape (2 nodes + supports, times), and the wheels' again."""
+def _loads(system: CoupledSystem, times: Sequence[float], force: Array) -> tuple[Array, WheelLoads]:
+    """Forces on nodes and supports, shape (2 nodes + ports, times), and the wheels' again."""
     parameters, w = system.track.parameters, system.wheels
     nodal = 2 * (parameters.elements + 1)
-    loads = np.zeros((nodal + parameters.supports, len(times)))
+    loads = np.zeros((nodal + len(force) - w, len(times)))
     loads[nodal:] = force[w:]
-    shapes = np.stack([system.weights(time)[0] for time in times], axis=2)
-    for wheel, element in enumerate(system.elements.tolist()):
+    shapes = np.stack([system.places.shapes(time) for time in times], axis=2)
+    for wheel, element in enumerate(system.places.elements.tolist()):
         loads[2 * element : 2 * element + 4] += shapes[wheel] * force[wheel]
     wheels = WheelLoads(
-        elements=system.elements,
-        places=positions / parameters.element_length - system.elements[:, None],
+        elements=system.places.elements,
+        places=_columns([system.places.within(time) for time in times]),
         couples=np.stack([shapes[:, 1], shapes[:, 3]]),
         forces=force[:w],
     )

@@ -1,4 +1,4 @@
-"""Forces on all ports at one instant: contacts and state-dependent ballast with what they cause."""
+"""Forces on all ports at one instant: contacts, ballast and pads, with what they cause."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from ..errors import RunError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .laws import BallastLaw, HertzLaw
+    from .laws import HertzLaw
     from .linear_track import Feedthrough
+    from .support_laws import SupportLaws
 
 MOST_ITERATIONS = 60
 RELATIVE_TOLERANCE, ABSOLUTE_TOLERANCE = 1e-12, 1e-7
@@ -25,7 +26,7 @@ class PortForces(NamedTuple):
     Attributes
     ----------
     force : ndarray, shape (p,)
-        Contact forces, then minus the ballast's increments [N].
+        Contact forces, then minus what ballast and pads bear beyond the matrices [N].
     by_displacement, by_rate : ndarray, shape (p,)
         Derivatives of the laws by the displacement [N/m] and velocity [N s/m] of their own port.
     """
@@ -48,25 +49,28 @@ class Laws(NamedTuple):
 
     Attributes
     ----------
-    contact, ballast
-        Laws of wheels and sleepers.
+    contact, supports
+        Laws of the wheels; of ballast and pads.
     level : ndarray, shape (wheels,)
         Where each wheel would lie on an undeformed rail, its own displacement less the drops [m].
+    memory : ndarray, shape (memories,)
+        States of the pads [N].
     """
 
     contact: HertzLaw
-    ballast: BallastLaw
+    supports: SupportLaws
     level: NDArray[np.float64]
+    memory: NDArray[np.float64]
 
     def at(self, displacement: NDArray[np.float64], rate: NDArray[np.float64]) -> PortForces:
         """Return what the laws answer to displacements [m] and rates [m/s] of all ports, (p,)."""
         wheels = len(self.level)
         hertz = self.contact.tangent(self.level - displacement[:wheels])
-        beds = self.ballast.tangent(displacement[wheels:], rate[wheels:])
+        borne = self.supports.tangent(displacement[wheels:], rate[wheels:], self.memory)
         return PortForces(
-            np.concatenate((hertz.force, -beds.force)),
-            -np.concatenate((hertz.stiffness, beds.stiffness)),
-            -np.concatenate((hertz.damping, beds.damping)),
+            np.concatenate((hertz.force, -borne.force)),
+            -np.concatenate((hertz.stiffness, borne.stiffness)),
+            -np.concatenate((hertz.damping, borne.damping)),
         )
 
 
@@ -110,6 +114,6 @@ def solve_port_forces(
             return answer
         force = force + np.linalg.solve(answer.sensitivity(feedthrough), miss)
     raise RunError(
-        f"contact and ballast forces did not settle in {MOST_ITERATIONS} iterations at "
+        f"the forces of contacts and supports did not settle in {MOST_ITERATIONS} iterations at "
         f"a miss of {np.abs(miss).max():.3g} N: raise track.mode_pairs, or use the full model"
     )

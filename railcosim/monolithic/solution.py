@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from dataclasses import fields
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 import numpy as np
@@ -11,7 +10,6 @@ from threadpoolctl import threadpool_limits
 
 from fmu_src.python.basis_cache import cached_basis
 from track_fmu.assembly import assemble
-from track_fmu.parameters import TrackParameters
 from track_fmu.reduction import reduce_track
 
 from ..dataset import assemble as label
@@ -19,16 +17,21 @@ from ..errors import InputError
 from ..input_tables import check_profiles
 from ..run_record import ATTEMPT_COLUMNS, programs
 from ..summary import CAUSES
-from ..track_data import require_paper_laws
+from ..surface_tables import compose
+from ..track_data import track_parameters
 from ..watched_control import Progress
 from .course import course_of
-from .full_track import FullTrack
+from .full_track import FullTrack, port_incidence
+from .held_track import held_track
 from .integration import integrate
 from .integrators import Accuracy
-from .laws import HertzLaw, ballast_law
+from .laws import HertzLaw
 from .modal_track import ModalTrack
 from .observation import Observer
+from .rail_places import RailPlaces
+from .scenario_vehicle import vehicle_of
 from .static_start import static_start
+from .support_laws import support_laws
 from .system import ContactForm, CoupledSystem
 
 if TYPE_CHECKING:
@@ -40,8 +43,11 @@ if TYPE_CHECKING:
     from track_fmu.assembly import TrackMatrices
 
     from ..scenario import Scenario
+    from ..track_section import Track
+    from .course import Course
+    from .held_track import HeldTrack
     from .integration import Effort
-    from .linear_track import LinearTrack
+    from .support_laws import SupportLaws
 
 Model: TypeAlias = Literal["modal", "full"]
 """Coordinates of the track: retained modes with residual flexibility, or all nodes."""
@@ -64,8 +70,8 @@ def solve(
 ) -> xr.Dataset:
     """Solve a passage as one system of equations, Eq. (15)-(18).
 
-    Every support has state-dependent ballast, whatever ``track.supports_per_wheel`` says; the
-    section ``[master]`` has no meaning here.
+    Every support has the laws of its ballast and its pad, whatever ``track.supports_per_wheel``
+    says; the section ``[master]`` has no meaning here.
 
     Parameters
     ----------
@@ -102,27 +108,17 @@ def solve(
     ):
         if value not in get_args(kind):
             raise InputError(f"{name} is {value!r} but must be one of {', '.join(get_args(kind))}")
-    require_paper_laws(scenario, "the monolithic solution")
-    if scenario.track.endless:
-        raise InputError(
-            "track.endless is true but this solution holds the whole track: leave it out, with as "
-            "many track.bays as the run takes"
-        )
-    if scenario.vehicle.is_suspended or scenario.suspension.tread_mass > 0.0:
-        raise InputError(
-            "the monolithic solution knows rigid wheels under their loads only: leave "
-            "vehicle.model at masses and suspension.tread_mass at 0, or run the co-simulation"
-        )
-    if scenario.irregularity or scenario.wheel_defect:
-        raise InputError(
-            "the monolithic solution knows the flat and vehicle.rail_irregularity only: leave "
-            "[[irregularity]] and [[wheel_defect]] out, or run the co-simulation"
-        )
     check_profiles(scenario)
+    held, surfaces = held_track(scenario), compose(scenario)
     with threadpool_limits(limits=1, user_api="blas"):  # the matrices are too small for more
-        system, state = make_system(scenario, model=model, contact_form=contact_form)
-        stop = system.course.stop_time
-        observer = Observer(_sampling(times, stop), np.array(scenario.gauge_positions))
+        course = course_of(scenario, surfaces)
+        system, state = make_system(scenario, held, course, model=model, contact_form=contact_form)
+        stop = course.stop_time
+        observer = Observer(
+            _sampling(times, stop),
+            gauges=np.array(scenario.gauge_positions) - held.begin,
+            sleepers=held.sleepers_of(scenario),
+        )
         effort = integrate(
             system,
             state,
@@ -137,6 +133,7 @@ def solve(
         scenario,
         times=observer.times,
         series=observer.series(),
+        surfaces=surfaces,
         attempts={
             name: np.empty(0, "U8" if name == "cause" else float) for name in ATTEMPT_COLUMNS
         },
@@ -145,50 +142,76 @@ def solve(
 
 
 def make_system(
-    scenario: Scenario, *, model: Model, contact_form: ContactForm
+    scenario: Scenario,
+    held: HeldTrack,
+    course: Course,
+    *,
+    model: Model,
+    contact_form: ContactForm,
 ) -> tuple[CoupledSystem, NDArray[np.float64]]:
     """Return the system of a scenario and its state at t = 0.
 
-    The track starts in the static equilibrium of its full model, moving along; the wheels start
-    without vertical velocity.
+    The track starts in the static equilibrium of its full model, moving along, with relaxed pads
+    and, as in the FMUs, with nominal dampers: sleepers that hang free are long in forgetting those.
+    The vehicle starts level, without vertical velocity, every wheel under its static load.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        What passes,
+    held : HeldTrack
+        over which track,
+    course : Course
+        and on which way.
+    model, contact_form
+        See `solve`.
     """
-    keys, vehicle = scenario.track, scenario.vehicle
-    names = [item.name for item in fields(TrackParameters)]
-    parameters = TrackParameters(**{name: getattr(keys, name) for name in names})
-    matrices = assemble(parameters)
-    track: LinearTrack = FullTrack(parameters, matrices)
-    if model == "modal":
-        basis = cached_basis(parameters, matrices, mode_pairs=keys.retained_pairs)
-        reduced = reduce_track(
-            parameters, matrices, basis, residual_flexibility=keys.residual_flexibility
-        )
-        track = ModalTrack(reduced, matrices, basis)
-    course = course_of(scenario)
-    system = CoupledSystem(
-        track=track,
+    parameters = track_parameters(held.keys)
+    laws = support_laws(scenario, held.keys, all_in_matrices=model == "full")
+    nominal = assemble(parameters)
+    matrices = laws.base.put_into(nominal, laws.supports.nominal)
+    full = FullTrack(parameters, matrices, pad_ports=laws.pads_have_ports)
+    places = RailPlaces(
         course=course,
-        contact=HertzLaw(coefficient=vehicle.hertz_coefficient),
-        ballast=ballast_law(keys),
-        form=contact_form,
-        wheel_mass=vehicle.wheel_mass,
-        static_load=vehicle.static_wheel_load,
-        elements=np.zeros(vehicle.wheels, dtype=np.intp),
+        parameters=parameters,
+        begin=held.begin,
+        elements=np.zeros(len(course.starts), dtype=np.intp),
     ).moved_to(0.5 * min([*course.kinks.tolist(), course.stop_time]))
-    return system, _start(system, matrices)
-
-
-def _start(system: CoupledSystem, matrices: TrackMatrices) -> NDArray[np.float64]:
-    """State at t = 0."""
-    full = FullTrack(system.track.parameters, matrices)
-    shape, slope = (
-        full.wheels(system.elements, weights).output[:, : matrices.numbering.size]
-        for weights in system.weights(0.0)
+    load = scenario.vehicle.static_wheel_load
+    shapes, slopes = (
+        full.wheels(places.elements, weights).output[:, : matrices.numbering.size]
+        for weights in (places.shapes(0.0), places.slopes(0.0))
     )
-    load = system.static_load * shape.sum(axis=0)
-    load_rate = system.static_load * system.course.speed(0.0) * slope.sum(axis=0)
-    displacement, velocity = static_start(matrices, system.ballast, load=load, load_rate=load_rate)
-    own = system.track.begin(displacement, velocity)
-    return system.at_rest(own, shape @ displacement)
+    displacement, velocity = static_start(
+        nominal,
+        support_laws(scenario, held.keys, all_in_matrices=False),
+        load=load * shapes.sum(axis=0),
+        load_rate=load * course.speed(0.0) * slopes.sum(axis=0),
+    )
+    contact = HertzLaw(coefficient=scenario.vehicle.hertz_coefficient)
+    system = CoupledSystem(
+        track=full if model == "full" else _modal(held.keys, matrices, laws),
+        vehicle=vehicle_of(scenario),
+        places=places,
+        contact=contact,
+        laws=laws,
+        form=contact_form,
+        static_load=load,
+        rest=shapes @ displacement + course.drops(0.0) + contact.compression(load),
+    )
+    ports = port_incidence(matrices, pad_ports=laws.pads_have_ports)
+    memory = laws.relaxed(ports.T @ displacement)
+    return system, system.at_rest(system.track.begin(displacement, velocity), memory)
+
+
+def _modal(keys: Track, matrices: TrackMatrices, laws: SupportLaws) -> ModalTrack:
+    """Return the track in its retained modes."""
+    parameters = track_parameters(keys)
+    basis = cached_basis(parameters, matrices, mode_pairs=keys.retained_pairs)
+    reduced = reduce_track(
+        parameters, matrices, basis, residual_flexibility=keys.residual_flexibility
+    )
+    return ModalTrack(reduced, matrices, basis, pad_ports=laws.pads_have_ports)
 
 
 def _sampling(times: NDArray[np.float64] | None, stop: float) -> NDArray[np.float64]:

@@ -9,36 +9,49 @@ import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
 from ..errors import RunError
+from .full_track import port_incidence
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+    from scipy.sparse.linalg import SuperLU
 
     from track_fmu.assembly import TrackMatrices
 
-    from .laws import BallastLaw
+    from .support_laws import SmallMotion, SupportLaws
 
-MOST_ITERATIONS = 60
-SETTLED = 1e-13
-"""Relative change of the displacements at which the iteration ends."""
+MOST_ITERATIONS = 200
+SETTLED = 1e-11
+"""Relative change of the displacements at which iterations end, above what rounding leaves."""
+
+OVERSHOOT = 0.5
+"""Slope of the energy behind a change over the fall before it, up to which it is taken."""
+
+SMALLEST_SHARE = 1e-3
+"""Of a change; where things close, Newton's whole one may lead uphill."""
+
+ROUNDING = 1e-9
+"""Of a tangent stiffness."""
 
 
 def static_start(
     matrices: TrackMatrices,
-    ballast: BallastLaw,
+    laws: SupportLaws,
     *,
     load: NDArray[np.float64],
     load_rate: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Solve ``K x + C x' + D_b g(x, x') = f``, with the velocity of a deflection that moves along.
+    """Solve ``K x + C x' + D g(x, x') = f``, with the velocity of a deflection that moves along.
 
-    Inertia is left out, as in a track that follows its loads without delay.
+    Inertia is left out, as in a track that follows its loads without delay. Branches of pads are
+    relaxed. Where something can lift off, its dampers bear nothing and the velocity is found once,
+    after the displacements: where gaps are about to close the iteration would go on without end.
 
     Parameters
     ----------
     matrices : TrackMatrices
         The linear track.
-    ballast : BallastLaw
-        Of every support.
+    laws : SupportLaws
+        Of ballast and pads.
     load, load_rate : ndarray, shape (N,)
         Nodal forces of the wheels [N] and their rate as the wheels move [N/s].
 
@@ -50,24 +63,82 @@ def static_start(
     Raises
     ------
     RunError
-        If no equilibrium is found.
+        If no equilibrium is found, a part of the track is held by nothing, or the load on a
+        component falls with its displacement there: then there are other equilibria.
     """
-    beds = matrices.ballast_incidence
-    displacement = np.zeros_like(load)
+    ports = port_incidence(matrices, pad_ports=laws.pads_have_ports)
+    loose = laws.loose()
+    displacement, viscous = np.zeros_like(load), np.zeros_like(load)
     for _ in range(MOST_ITERATIONS):
-        sinking = beds.T @ displacement
-        at_rest = ballast.tangent(sinking, np.zeros_like(sinking))
-        tangent = beds @ sp.diags_array(at_rest.stiffness) @ beds.T
-        factor = splu(sp.csc_array(matrices.stiffness + tangent))
+        before = displacement
+        displacement, small = _at_rest(matrices, laws, load - viscous, displacement)
+        factor = _factor(matrices, ports, small)
         velocity = factor.solve(load_rate)
-        rate = beds.T @ velocity
-        force = ballast.tangent(sinking, rate).force
-        miss = load - matrices.stiffness @ displacement - matrices.damping @ velocity - beds @ force
-        change = factor.solve(miss)
+        if loose.any() and viscous.any():
+            return displacement, velocity
+        viscous = matrices.damping @ velocity
+        viscous += ports @ (~loose * small.damping * (ports.T @ velocity))
+        if np.abs(displacement - before).max() <= SETTLED * np.abs(displacement).max():
+            return displacement, velocity
+    raise _not_found()
+
+
+def _at_rest(
+    matrices: TrackMatrices,
+    laws: SupportLaws,
+    load: NDArray[np.float64],
+    displacement: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], SmallMotion]:
+    """Find the equilibrium under standing loads, by Newton's changes that lead down the energy."""
+    ports = port_incidence(matrices, pad_ports=laws.pads_have_ports)
+    change, fall, share = np.zeros_like(load), 0.0, 1.0
+    for _ in range(MOST_ITERATIONS):
+        small = laws.about_rest(ports.T @ displacement)
+        miss = load - matrices.stiffness @ displacement - ports @ small.force
+        if share > SMALLEST_SHARE and change @ miss < -OVERSHOOT * fall:
+            share *= 0.5
+            displacement = displacement - share * change
+            continue
+        change, share = _factor(matrices, ports, small).solve(miss), 1.0
+        fall = float(change @ miss)
         displacement = displacement + change
         if np.abs(change).max() <= SETTLED * np.abs(displacement).max():
-            return displacement, velocity
-    raise RunError(
+            _refuse_falling(laws, small)
+            return displacement, small
+    raise _not_found()
+
+
+def _not_found() -> RunError:
+    return RunError(
         f"the static equilibrium at the start is not found in {MOST_ITERATIONS} iterations: check "
-        "the coefficients track.ballast_alpha, ballast_beta and ballast_delta"
+        "the laws of ballast and pads in the section [track]"
     )
+
+
+def _factor(matrices: TrackMatrices, ports: sp.csc_array, small: SmallMotion) -> SuperLU:
+    """Factorise the tangent stiffness."""
+    tangent = ports @ sp.diags_array(small.stiffness) @ ports.T
+    try:
+        return splu(sp.csc_array(matrices.stiffness + tangent))
+    except RuntimeError as error:
+        raise RunError(
+            "a part of the track is held by nothing in static equilibrium: fasten the rail on "
+            "sleepers that hang, or let their ballast pull"
+        ) from error
+
+
+def _refuse_falling(laws: SupportLaws, small: SmallMotion) -> None:
+    """Refuse an equilibrium on a falling branch of a load-displacement curve."""
+    base, nominal = laws.base, laws.supports.nominal
+    linear = [base.ballast_stiffness, base.pad_stiffness]
+    whole = small.stiffness + np.concatenate(linear)[: len(small.stiffness)]
+    scale = np.concatenate([nominal.ballast_stiffness, nominal.pad_stiffness])[: len(whole)]
+    worst = int(np.argmin(whole / scale))
+    if whole[worst] < -ROUNDING * scale[worst]:
+        supports = len(base.pad_stiffness)
+        kind = "ballast" if worst < supports else "pad"
+        raise RunError(
+            f"the load on the {kind} of support {worst % supports + 1} falls with its displacement "
+            f"in static equilibrium ({whole[worst]:.3g} N/m), which is not the only one then: use "
+            "a law whose load rises"
+        )

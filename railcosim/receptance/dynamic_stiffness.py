@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from track_fmu.parameters import TrackParameters
 
     from .points import TrackPoint
-    from .preload import BallastTangent
+    from .preload import SupportTangent
 
 
 class DynamicStiffness:
@@ -28,17 +28,20 @@ class DynamicStiffness:
     ----------
     parameters : TrackParameters
         The linear track.
-    tangent : BallastTangent, optional
-        What the ballast has more of under a preload.
+    tangent : SupportTangent, optional
+        What pads and ballast have more of.
     """
 
-    def __init__(self, parameters: TrackParameters, tangent: BallastTangent | None = None) -> None:
+    def __init__(self, parameters: TrackParameters, tangent: SupportTangent | None = None) -> None:
         self.matrices = assemble(parameters)
         stiffness, damping = self.matrices.stiffness, self.matrices.damping
+        self._branches: SupportTangent | None = None
         if tangent is not None:
-            beds = self.matrices.ballast_incidence
-            stiffness = stiffness + beds @ sp.diags_array(tangent.stiffness) @ beds.T
-            damping = damping + beds @ sp.diags_array(tangent.damping) @ beds.T
+            ports, small = tangent.incidence, tangent.small
+            stiffness = stiffness + ports @ sp.diags_array(small.stiffness) @ ports.T
+            damping = damping + ports @ sp.diags_array(small.damping) @ ports.T
+            if small.branch_stiffness.any():
+                self._branches = tangent
         self._width = half_bandwidth(stiffness, damping, self.matrices.mass)
         self._stiffness, self._damping, self._mass = (
             _both_triangles(to_banded(matrix, self._width))
@@ -74,7 +77,10 @@ class DynamicStiffness:
         """
         omega = 2.0 * np.pi * frequency
         with np.errstate(over="ignore", invalid="ignore"):  # the answer is looked at below
-            matrix = self._stiffness + (1j * omega) * self._damping - omega**2 * self._mass
+            matrix: ComplexArray = self._stiffness + (1j * omega) * self._damping
+            matrix -= omega**2 * self._mass
+            if self._branches is not None:
+                matrix += self._of_branches(self._branches, omega)
             try:
                 answer = la.solve_banded(
                     (self._width, self._width),
@@ -92,6 +98,15 @@ class DynamicStiffness:
                 "magnitude of the keys of [track]"
             )
         return np.asarray(answer)
+
+    def _of_branches(self, tangent: SupportTangent, omega: float) -> ComplexArray:
+        """What branches of spring and dashpot add, as a band."""
+        ports = tangent.incidence
+        added = sp.csc_array(ports @ sp.diags_array(tangent.branches(omega)) @ ports.T)
+        real, imaginary = (
+            _both_triangles(to_banded(part, self._width)) for part in (added.real, added.imag)
+        )
+        return np.asarray(real + 1j * imaginary)
 
     def receptance(
         self, frequencies: FloatArray, *, load: TrackPoint, response: TrackPoint

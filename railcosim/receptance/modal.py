@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from track_fmu.eigensolver import ComplexArray
     from track_fmu.reduction import ReducedTrack
 
-    from .preload import BallastTangent
+    from .preload import SupportTangent
 
 
 def modal_receptance(
@@ -22,13 +22,13 @@ def modal_receptance(
     *,
     load: TrackPoint,
     response: TrackPoint,
-    tangent: BallastTangent | None = None,
+    tangent: SupportTangent | None = None,
 ) -> ComplexArray:
     """Displacement at one point over the force at another [m/N], by modal superposition.
 
     Each mode follows ``q = rho^T f / (i omega - lambda)``, Eq. (10)-(12); what the truncated modes
-    add statically is the residual flexibility, Eq. (13). Under a preload the additional ballast
-    springs and dampers are coupled to the modal model through the receptances at their places.
+    add statically is the residual flexibility, Eq. (13). What pads and ballast have beyond the
+    nominal track is coupled to its modes through the receptances at their places.
 
     Parameters
     ----------
@@ -38,16 +38,16 @@ def modal_receptance(
         Of the excitation [Hz].
     load, response : TrackPoint
         Where the force acts and where the displacement is taken.
-    tangent : BallastTangent, optional
-        What the ballast has more of under a preload.
+    tangent : SupportTangent, optional
+        What pads and ballast have more of.
 
     Returns
     -------
     (n,) complex array
         Its argument is the phase by which the displacement leads the force.
     """
-    beds = _loaded_beds(track, tangent)
-    points = [response, load, *beds]
+    components = _components(track, tangent)
+    points = [response, load, *components]
     shape = np.array([point.shape @ track.shape[point.rows] for point in points])
     residual = np.array(
         [
@@ -62,24 +62,24 @@ def modal_receptance(
         mirrored = np.conj(shape[:, pairs])
         among += (mirrored / (1j * omega - np.conj(track.eigenvalues[pairs]))) @ mirrored.T
         result[k] = among[0, 1]
-        if beds and tangent is not None:
-            added = tangent.stiffness[tangent.loaded] + 1j * omega * tangent.damping[tangent.loaded]
-            coupling = np.eye(len(beds)) + added[:, None] * among[2:, 2:]
+        if tangent is not None:
+            added = tangent.dynamic_stiffness(float(omega))
+            coupling = np.eye(len(components)) + added[:, None] * among[2:, 2:]
             result[k] -= among[0, 2:] @ np.linalg.solve(coupling, added * among[2:, 1])
     return result
 
 
-def _loaded_beds(track: ReducedTrack, tangent: BallastTangent | None) -> list[TrackPoint]:
-    """The ballast beds that a preload stiffens, as points of the track."""
+def _components(track: ReducedTrack, tangent: SupportTangent | None) -> list[TrackPoint]:
+    """Pads and ballast that are not the nominal ones, as points of the track."""
     if tangent is None:
         return []
     first = track.ballast_rows.start
     return [
         TrackPoint(
-            rows=np.array([first + bed]),
+            rows=np.array([first + port]),
             shape=np.ones(1),
             dofs=np.zeros(0, dtype=np.intp),
             weights=np.zeros(0),
         )
-        for bed in tangent.loaded
+        for port in tangent.ports
     ]

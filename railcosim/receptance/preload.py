@@ -1,4 +1,4 @@
-"""State-dependent ballast about the static equilibrium under a preload."""
+"""Pads and ballast linearised about the static equilibrium under a preload."""
 
 from __future__ import annotations
 
@@ -7,78 +7,131 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from track_fmu.supports import nearest_supports
-from track_fmu.track_model import TrackModel, TrackOptions
+from track_fmu.assembly import assemble
 
-from ..errors import RunError
+from ..errors import InputError
+from ..monolithic.full_track import port_incidence
+from ..monolithic.static_start import static_start
+from ..monolithic.support_laws import SmallMotion, support_laws
+from ..track_data import track_parameters
 
 if TYPE_CHECKING:
+    import scipy.sparse as sp
+
     from track_fmu.assembly import IntArray
-    from track_fmu.ballast import PolynomialBallast
-    from track_fmu.beam_element import FloatArray
-    from track_fmu.reduction import ReducedTrack
+    from track_fmu.eigensolver import ComplexArray
+
+    from ..monolithic.support_laws import SupportLaws
+    from ..scenario import Scenario
+    from .points import TrackPoint
+
+
+ROUNDING = 1e-12
+"""Of a stiffness or a damping, below which a difference from the nominal one is none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class BallastTangent:
-    """What the ballast has more of, for small motions, than the linear ballast.
+class SupportTangent:
+    """What pads and ballast have more of, for small motions, than the nominal linear ones.
 
     Attributes
     ----------
-    stiffness, damping : (supports,) float array
-        Tangent of Eq. (27) [N/m] and secant damping of Eq. (30) [N s/m] under every sleeper.
+    ports : (p,) int array
+        Their numbers among all: ballast under every sleeper first, then every pad.
+    incidence : (N, p) sparse array
+        What deforms them.
+    small : SmallMotion
+        Their springs, dampers and branches beyond the nominal ones.
     """
 
-    stiffness: FloatArray
-    damping: FloatArray
+    ports: IntArray
+    incidence: sp.csc_array
+    small: SmallMotion
 
-    @property
-    def loaded(self) -> IntArray:
-        """Numbers (from 0) of the sleepers with any of it."""
-        return np.flatnonzero((self.stiffness != 0.0) | (self.damping != 0.0))
+    def branches(self, omega: float) -> ComplexArray:
+        """Stiffness of the branches at an angular frequency [rad/s], ``k1 i w c1 / (k1 + i w c1)``.
+
+        Shape (p,) [N/m].
+        """
+        spring, dashpot = self.small.branch_stiffness, 1j * omega * self.small.branch_damping
+        return np.asarray(spring * dashpot / np.where(spring > 0.0, spring + dashpot, 1.0))
+
+    def dynamic_stiffness(self, omega: float) -> ComplexArray:
+        """Stiffness of springs, dampers and branches at an angular frequency [rad/s], (p,)."""
+        linear = self.small.stiffness + 1j * omega * self.small.damping
+        return np.asarray(linear + self.branches(omega))
 
 
-def ballast_tangent(
-    track: ReducedTrack,
-    law: PolynomialBallast,
-    *,
-    position: float,
-    force: float,
-    supports_per_wheel: int,
-) -> BallastTangent:
-    """Linearise the ballast about the equilibrium under a standing load on the rail.
+def support_tangent(
+    scenario: Scenario, *, point: TrackPoint, force: float
+) -> SupportTangent | None:
+    """Linearise all pads and all ballast about the equilibrium under a standing load on the rail.
 
     Parameters
     ----------
-    track : ReducedTrack
-        The linear track, with residual flexibility, so that its statics are exact.
-    law : PolynomialBallast
-        State-dependent part of the ballast.
-    position : float
-        Of the load along the rail [m].
+    scenario : Scenario
+        Its track and the supports of that.
+    point : TrackPoint
+        Where the load stands.
     force : float
-        The load [N], downwards positive.
-    supports_per_wheel : int
-        Number of nearest supports that are state-dependent.
+        The load [N], downwards positive; 0 is the unloaded track.
+
+    Returns
+    -------
+    SupportTangent or None
+        None where nothing is left beside the nominal linear track.
 
     Raises
     ------
+    InputError
+        For a table that cannot be used, or an unloaded track with things that can lift off.
     RunError
         If there is no equilibrium.
     """
-    model = TrackModel(
-        track, TrackOptions(wheels=1, supports_per_wheel=supports_per_wheel), ballast=law
+    laws = support_laws(scenario, scenario.track, all_in_matrices=False)
+    if force == 0.0:
+        _refuse_kinks(laws)
+    matrices = assemble(track_parameters(scenario.track))
+    incidence = port_incidence(matrices, pad_ports=laws.pads_have_ports)
+    load = np.zeros(matrices.numbering.size)
+    free = point.dofs >= 0
+    load[point.dofs[free]] = force * point.weights[free]
+    displacement = load
+    if force != 0.0:
+        displacement, _ = static_start(matrices, laws, load=load, load_rate=np.zeros_like(load))
+    small = _without_rounding(laws, laws.about_rest(incidence.T @ displacement))
+    there = np.flatnonzero(
+        (small.stiffness != 0.0) | (small.damping != 0.0) | (small.branch_stiffness != 0.0)
     )
-    place = np.array([position])
-    try:
-        model.start(place, np.array([force]))
-    except RuntimeError as error:
-        raise RunError(str(error)) from error
-    supports = np.arange(track.parameters.supports)
-    sunk = model.observe().ballast_deformation
-    near = np.isin(supports, nearest_supports(track.parameters, place, supports_per_wheel))
-    rest = np.zeros_like(sunk)
-    return BallastTangent(
-        stiffness=np.where(near, law.stiffness(sunk, rest, supports), 0.0),
-        damping=np.where(near, law.damping(sunk, rest, supports), 0.0),
+    if not len(there):
+        return None
+    return SupportTangent(
+        ports=there,
+        incidence=incidence[:, there],
+        small=SmallMotion(*(values[there] for values in small)),
+    )
+
+
+def _without_rounding(laws: SupportLaws, small: SmallMotion) -> SmallMotion:
+    """Leave nothing where springs and dampers are the nominal ones."""
+    nominal, ports = laws.supports.nominal, len(small.stiffness)
+    springs = np.append(nominal.ballast_stiffness, nominal.pad_stiffness)[:ports]
+    dampers = np.append(nominal.ballast_damping, nominal.pad_damping)[:ports]
+    return small._replace(
+        stiffness=np.where(np.abs(small.stiffness) > ROUNDING * springs, small.stiffness, 0.0),
+        damping=np.where(np.abs(small.damping) > ROUNDING * dampers, small.damping, 0.0),
+    )
+
+
+def _refuse_kinks(laws: SupportLaws) -> None:
+    """Refuse an unloaded track on which a small motion opens and closes something."""
+    own = laws.supports
+    if (own.sleeper_lifts & (own.gap == 0.0)).any():
+        what = "ballast that does not pull just touches the sleepers: leave track.ballast_pulls out"
+    elif own.rail_lifts.any():
+        what = "a rail that is not fastened just touches its pads: fasten it"
+    else:
+        return
+    raise InputError(
+        f"an unloaded track has no receptance where {what}, or give a preload with --preload"
     )

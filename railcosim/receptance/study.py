@@ -16,12 +16,11 @@ from track_fmu.reduction import reduce_track
 
 from ..errors import InputError, RunError
 from ..load_displacement import HEAVIEST
-from ..track_data import ballast_law, require_paper_laws, track_parameters
+from ..track_data import is_linear, track_parameters
 from .dynamic_stiffness import DynamicStiffness
 from .modal import modal_receptance
 from .peaks import Peak, find_peaks
 from .points import Place, track_point
-from .preload import BallastTangent, ballast_tangent
 
 if TYPE_CHECKING:
     from track_fmu.beam_element import FloatArray
@@ -30,6 +29,7 @@ if TYPE_CHECKING:
     from track_fmu.reduction import ReducedTrack
 
     from ..scenario import Scenario
+    from .preload import SupportTangent
 
 METHODS = ("direct", "modal")
 """Ways to a receptance: the dynamic stiffness of the whole track, or its modes."""
@@ -54,8 +54,8 @@ class ReceptanceStudy:
     load, response : Place
         Where the force acts and where the displacement is taken.
     preload : float
-        Standing load on the rail where the force acts [N]; about the equilibrium under it the
-        state-dependent ballast is linearised. 0: the unloaded track.
+        Standing load on the rail where the force acts [N]; pads and ballast are linearised about
+        the equilibrium under it. 0: the unloaded track.
 
     Raises
     ------
@@ -69,14 +69,13 @@ class ReceptanceStudy:
     preload: float = 0.0
 
     def __post_init__(self) -> None:
-        require_paper_laws(self.scenario, "a receptance")
         for place in (self.load, self.response):
             track_point(self._parameters, place)
         if not 0.0 <= self.preload <= HEAVIEST:
             raise InputError(
                 f"the preload is {self.preload:g} N but must be from 0 to {HEAVIEST:g} N"
             )
-        if self.preload > 0.0 and self.scenario.track.ballast == "linear":
+        if self.preload > 0.0 and is_linear(self.scenario):
             raise InputError(
                 f"a preload of {self.preload:g} N changes nothing on a linear track: leave it out "
                 "or set track.ballast=state_dependent"
@@ -119,29 +118,19 @@ class ReceptanceStudy:
         return DynamicStiffness(self._parameters, self._tangent)
 
     @cached_property
-    def _tangent(self) -> BallastTangent | None:
-        law = ballast_law(self.scenario.track)
-        if law is None or self.preload == 0.0:
-            return None
-        return ballast_tangent(
-            self._statically_exact,
-            law,
-            position=self.load.along(self._parameters),
-            force=self.preload,
-            supports_per_wheel=self.scenario.track.supports_per_wheel,
-        )
+    def _tangent(self) -> SupportTangent | None:
+        from .preload import support_tangent  # noqa: PLC0415 - loads laws that other uses spare
+
+        point = track_point(self._parameters, Place(position=self._along))
+        return support_tangent(self.scenario, point=point, force=self.preload)
+
+    @property
+    def _along(self) -> float:
+        """Where the preload stands on the rail [m]."""
+        return self.load.along(self._parameters)
 
     @cached_property
     def _reduced(self) -> ReducedTrack:
-        if self.scenario.track.residual_flexibility:
-            return self._statically_exact
-        return self._reduce(residual_flexibility=False)
-
-    @cached_property
-    def _statically_exact(self) -> ReducedTrack:
-        return self._reduce(residual_flexibility=True)
-
-    def _reduce(self, *, residual_flexibility: bool) -> ReducedTrack:
         parameters, matrices = self._parameters, assemble(self._parameters)
         pairs = self.scenario.track.retained_pairs
         try:
@@ -150,6 +139,11 @@ class ReceptanceStudy:
         except (EigenvalueError, LinAlgError) as error:
             raise RunError(
                 f"the modes of the track cannot be found ({error}); check the keys of [track], or "
-                "use --method direct without a preload"
+                "use --method direct"
             ) from error
-        return reduce_track(parameters, matrices, basis, residual_flexibility=residual_flexibility)
+        return reduce_track(
+            parameters,
+            matrices,
+            basis,
+            residual_flexibility=self.scenario.track.residual_flexibility,
+        )

@@ -11,6 +11,7 @@ from scipy.optimize import least_squares
 
 from ..errors import InputError, RunError
 from ..receptance.measured import log_residual
+from ..support_values import support_properties
 from ..track_data import track_parameters
 from .estimate import Estimate, covariance, half_width, rounded
 from .support_receptance import SUPPORT_PARAMETERS, SupportReceptance
@@ -100,6 +101,7 @@ def tune_to_receptance(
     RunError
         If the search does not end.
     """
+    require_equal_supports(scenario)
     fitted = [k for k, name in enumerate(SUPPORT_PARAMETERS) if name not in hold]
     start = _start(scenario, hold)
     _check_points(measured, len(fitted))
@@ -151,6 +153,30 @@ def tune_to_receptance(
         amplitude_deviation=_root_mean_square(amplitude),
         phase_deviation=_root_mean_square(phase) if phase.size else None,
     )
+
+
+def require_equal_supports(scenario: Scenario) -> None:
+    """Refuse a track whose unloaded supports are not those four parameters.
+
+    Raises
+    ------
+    InputError
+        That names the key to leave out.
+    """
+    track = scenario.track
+    keys = [
+        f"track.{key}" for key in ("pad", "ballast") if getattr(track, key).lower().endswith(".csv")
+    ]
+    if not track.ballast_pulls:
+        keys.append("track.ballast_pulls")
+    own = support_properties(scenario)
+    if any((own[name] != (0.0 if name == "gap" else 1.0)).any() for name in own):
+        keys.append("track.supports" if track.supports else "[variation]")
+    if keys:
+        raise InputError(
+            f"a receptance is fitted by springs and dampers that are the same at every support of "
+            f"the unloaded track: leave {keys[0]} out"
+        )
 
 
 def _start(scenario: Scenario, hold: Collection[str]) -> FloatArray:

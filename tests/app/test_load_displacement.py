@@ -150,3 +150,18 @@ def test_the_numbers_say_how_far_the_polynomials_are_from_the_law():
     assert numbers["loss_factor"] == pytest.approx(0.3896, abs=1e-4)
     with pytest.raises(InputError, match="--frequency is 0 Hz"):
         curve_numbers(Scenario(), LAW, equidistant_loads(), 0.0)
+
+
+def test_the_secant_law_of_a_scenario_is_the_measured_one():
+    """Eq. (26) with the same slope; it has no coefficients of a polynomial."""
+    scenario = Scenario(track=Track(ballast="hyperbolic"))
+    curves = compute_curves(scenario, LAW, equidistant_loads())
+    assert "force_polynomial" not in curves
+    assert curves["force_ballast"].to_numpy() == pytest.approx(
+        curves["force_law"].to_numpy(), rel=1e-9, abs=1e-9
+    )
+    numbers = curve_numbers(scenario, LAW, equidistant_loads(), 60.0)
+    assert numbers["polynomial"]["alpha"] is None
+    assert numbers["polynomial"]["largest_deviation"] < 1e-6
+    (axes,) = draw_load_displacement(curves).axes
+    assert "the scenario's" in [line.get_label() for line in axes.lines]

@@ -16,7 +16,7 @@ from railcosim.scenario_file import read_scenario
 from railcosim.start_values import track_values
 from railcosim.support_values import random_factors, support_properties, support_values
 from railcosim.surface_tables import write_supports
-from railcosim.track_data import require_paper_laws
+from railcosim.track_data import is_linear
 from railcosim.variation import Variation
 
 PAD = Path(__file__).resolve().parents[2] / "examples" / "pad.csv"
@@ -173,14 +173,19 @@ def test_all_seeds_leave_the_nominal_track_where_nothing_deviates():
     assert all((values == (0.0 if name == "gap" else 1.0)).all() for name, values in own.items())
 
 
-def test_what_knows_the_paper_s_laws_only_says_so():
-    require_paper_laws(read_scenario(), "a receptance")
-    with pytest.raises(InputError, match=r"a receptance knows .* leave track.ballast out"):
-        require_paper_laws(read_scenario(None, ["track.ballast=hyperbolic"]), "a receptance")
-    with pytest.raises(InputError, match=r"leave track\.ballast_mass out"):
-        require_paper_laws(read_scenario(None, ["track.ballast_mass=50"]), "a receptance")
-    with pytest.raises(InputError, match=r"leave \[variation\] out"):
-        require_paper_laws(read_scenario(None, ["variation.missing_pads=3"]), "a receptance")
+@pytest.mark.parametrize(
+    ("override", "linear"),
+    [
+        ("variation.missing_pads=3", True),
+        ("variation.hanging_sleepers=3", False),
+        ("variation.missing_fastenings=3", False),
+        ("track.ballast_pulls=false", False),
+        (f"track.pad={PAD}", False),
+    ],
+)
+def test_a_track_is_linear_where_nothing_bends_or_opens(override, linear):
+    assert is_linear(read_scenario(None, ["track.ballast=linear", override])) == linear
+    assert not is_linear(read_scenario(None, [override]))
 
 
 def test_small_loops_have_the_stiffness_of_the_three_parameters():

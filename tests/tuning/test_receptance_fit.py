@@ -9,6 +9,7 @@ from railcosim.receptance.measured import MeasuredReceptance
 from railcosim.receptance.points import Place
 from railcosim.receptance.study import midspan
 from railcosim.scenario import Scenario
+from railcosim.scenario_file import read_scenario
 from railcosim.track_data import track_parameters
 from railcosim.tuning.receptance import tune_to_receptance
 from railcosim.tuning.support_receptance import SUPPORT_PARAMETERS, SupportReceptance
@@ -161,3 +162,16 @@ def test_wrong_names_are_refused(hold, message):
 def test_a_start_of_zero_is_refused():
     with pytest.raises(InputError, match=r"track\.pad_damping is 0 but .* above 0"):
         tune(started(1.0, 0.0, 1.0, 1.0), noisy(FREQUENCY, noise=0.02, seed=1))
+
+
+@pytest.mark.parametrize(
+    ("override", "key"),
+    [
+        ("track.ballast_pulls=false", "track.ballast_pulls"),
+        ("track.pad=pad.csv", "track.pad"),
+        ("variation.missing_pads=3", r"\[variation\]"),
+    ],
+)
+def test_supports_that_no_four_parameters_describe_are_refused(override, key):
+    with pytest.raises(InputError, match=f"same at every support .* leave {key} out"):
+        tune(read_scenario(None, [override]), noisy(FREQUENCY, noise=0.02, seed=1))
