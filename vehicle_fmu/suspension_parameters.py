@@ -53,7 +53,7 @@ class SuspensionElement:
         require_finite("clearance", self.clearance, "m", "give the way to the bump stop")
 
 
-PRIMARY = SuspensionElement(stiffness=1.2e6, damping=4e3)
+PRIMARY = SuspensionElement(stiffness=1.22e6, damping=4e3)
 """Of a wheel; Iwnicki, Vehicle System Dynamics 30 (1998) 295-313, passenger coach."""
 
 SECONDARY = SuspensionElement(stiffness=430e3, damping=20e3)

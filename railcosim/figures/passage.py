@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from itertools import cycle
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
 from ..contact_loss import contact_losses
+from ..field_rules import is_csv
 from ..scenario_file import from_toml
 from .style import BLUE, OTHERS, QUIET, tidy
 
@@ -48,9 +50,16 @@ def draw_passage(passage: xr.Dataset) -> Figure:
     for axes in (force, displacement, moment):
         axes.axvline(0.0, color=QUIET, linewidth=0.8, zorder=0)
         tidy(axes)
-    moment.set_xlabel("distance of the flat's wheel from the flat's centre [m]")
+    moment.set_xlabel(_distance_label(scenario, float(passage["flat_position"])))
     figure.suptitle(describe(scenario))
     return figure
+
+
+def _distance_label(scenario: Scenario, position: float) -> str:
+    """Say what distances count from: the flat, or the place named where there is none."""
+    if scenario.flat.shape == "none":
+        return f"distance of wheel {scenario.flat.wheel} from {position:g} m along the rail [m]"
+    return "distance of the flat's wheel from the flat's centre [m]"
 
 
 def describe(scenario: Scenario) -> str:
@@ -65,7 +74,9 @@ def describe(scenario: Scenario) -> str:
     is_uneven = vehicle.rail_irregularity or scenario.irregularity
     rail = ", rail irregularity" if is_uneven else ""
     treads = ", wheel defects" if scenario.wheel_defect else ""
-    return f"{speed}, {wheel}{treads}{rail}, {scenario.track.ballast.replace('_', '-')} track"
+    ballast = scenario.track.ballast
+    track = Path(ballast).name if is_csv(ballast) else ballast.replace("_", "-")
+    return f"{speed}, {wheel}{treads}{rail}, {track} track"
 
 
 def strikes_once(scenario: Scenario) -> bool:

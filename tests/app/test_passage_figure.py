@@ -30,6 +30,12 @@ def test_loss_of_contact_is_shaded_where_the_gap_is_open(make_passage):
     assert shade.get_label() == "wheel 1 off the rail"
 
 
+def test_without_a_flat_distances_count_from_a_place(make_passage):
+    scenario = Scenario(flat=Flat(shape="none", position=16.25))
+    label = draw_passage(make_passage(DISTANCE, scenario)).axes[2].get_xlabel()
+    assert label == "distance of wheel 1 from 16.25 m along the rail [m]"
+
+
 def test_every_wheel_has_its_own_colour_and_the_flats_wheel_always_the_same(make_passage):
     scenario = Scenario(vehicle=Vehicle(wheels=4), flat=Flat(wheel=3))
     lines = draw_passage(make_passage(DISTANCE, scenario)).axes[0].lines
@@ -63,6 +69,10 @@ def test_a_run_that_was_interrupted_early_can_be_drawn(make_passage):
         (
             Scenario(vehicle=Vehicle(speed_table="v.csv"), flat=Flat(shape="tread.csv")),
             "speed table, measured flat on wheel 1, state-dependent track",
+        ),
+        (
+            Scenario(track=Track(ballast="/somewhere/ballast_2.csv"), flat=Flat(shape="none")),
+            "40 km/h, round wheels, ballast_2.csv track",
         ),
     ],
 )

@@ -34,6 +34,17 @@ def test_the_axle_loads_of_a_preset_are_those_of_all_its_masses(name):
     assert len(preset.source) > 40
 
 
+def test_the_primary_springs_of_the_manchester_coach_are_those_of_its_benchmark():
+    """1.22 MN/m per axle box; TTB-2D, where the rest of the figures came from, rounds it."""
+    preset = PRESETS["manchester_coach"]
+    assert preset.primary == (1.22e6, 4e3)
+    assert Suspension().primary_stiffness == 1.22e6
+    scenario = read_scenario(None, ("vehicle.preset=manchester_coach", *LONG))
+    defaults = Suspension()
+    for key in ("primary_damping", "secondary_stiffness", "secondary_damping", "bogie_mass"):
+        assert getattr(scenario.suspension, key) == getattr(defaults, key)
+
+
 def test_keys_of_the_file_are_above_those_of_the_preset():
     overrides = ("vehicle.preset=velaro_e_coach", "suspension.primary_damping=25e3")
     scenario = read_scenario(None, (*overrides, "vehicle.wheel_mass=800", *LONG))

@@ -19,6 +19,12 @@ NOMINAL = (
 )  # fmt: skip
 """Wavelengths of the bands as they are called [cm]."""
 
+EN15610_LIMIT = (
+    17.1, 15.0, 13.0, 11.0, 9.0, 7.0, 4.9, 2.9, 0.9, -1.1, -3.2, -5.0, -5.6, -6.2, -6.8, -7.4,
+    -8.0, -8.6, -9.2, -9.8, -10.4, -11.0,
+)  # fmt: skip
+"""The limit as the program of EN 15610:2009, B.9.2, lists it, which is that of ISO 3095:2013."""
+
 
 def variance(spectrum, low, high):
     return quad(lambda w: float(spectrum(np.array([w]))[0]), low, high, epsrel=1e-10)[0]
@@ -32,9 +38,8 @@ def test_the_bands_are_those_of_the_standard():
     assert low[1:] == pytest.approx(high[:-1], rel=1e-14)
 
 
-@pytest.mark.parametrize(("wavelength", "level"), [(0.4, 17.1), (0.1, 4.9), (0.01, -8.0)])
-def test_the_limit_has_its_level_in_every_band(wavelength, level):
-    band = int(np.argmin(abs(band_wavelengths() - wavelength)))
+@pytest.mark.parametrize(("band", "level"), list(enumerate(EN15610_LIMIT)))
+def test_the_limit_has_its_level_in_every_band(band, level):
     low, high = (edges[band] for edges in band_edges(band_wavelengths()))
     inside = 1e-9 * (high - low)
     for extra in (0.0, 6.0):
@@ -61,7 +66,14 @@ def test_the_german_spectrum_has_the_variance_of_its_partial_fractions(disturban
     assert found == pytest.approx(primitive(high) - primitive(low), rel=1e-8)
 
 
-@pytest.mark.parametrize(("track_class", "amplitude"), [(1, 1.2107e-4), (5, 0.2095e-4)])
+FRA_CM2 = (1.2107, 1.0181, 0.6816, 0.5376, 0.2095, 0.0339)
+"""Coefficients of classes 1 to 6 as they are printed [cm2 rad/m]."""
+
+
+@pytest.mark.parametrize(
+    ("track_class", "amplitude"),
+    [(number, 1e-4 * printed) for number, printed in enumerate(FRA_CM2, start=1)],
+)
 def test_the_fra_spectrum_has_the_variance_of_its_partial_fractions(track_class, amplitude):
     cut = 0.8245
 
@@ -71,6 +83,20 @@ def test_the_fra_spectrum_has_the_variance_of_its_partial_fractions(track_class,
     low, high = 2 * np.pi / 100.0, 2 * np.pi
     found = variance(fra(track_class), low, high)
     assert found == pytest.approx(primitive(high) - primitive(low), rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("spectrum", "deviation"),
+    [
+        (german("low"), 0.98),
+        (german("high"), 1.61),
+        *((fra(k + 1), d) for k, d in enumerate((8.54, 7.83, 6.41, 5.69, 3.55, 1.43))),
+    ],
+)
+def test_the_standard_deviations_that_the_documentation_gives(spectrum, deviation):
+    """Of waves of 3 to 25 m, range D1 of EN 13848 [mm]."""
+    found = variance(spectrum, 2 * np.pi / 25.0, 2 * np.pi / 3.0)
+    assert 1e3 * found**0.5 == pytest.approx(deviation, abs=0.006)
 
 
 def test_a_density_per_cycle_is_two_pi_times_one_per_radian():
