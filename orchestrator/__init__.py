@@ -33,6 +33,7 @@ from .newton import Newton
 from .observers import Observer
 from .outcome import Outcome, Statistics, StopReason, Switch
 from .participant import OK, InputShape, Participant, Status, StatusKind, Variable, Vector
+from .point_blocks import PointBlocks
 from .recorder import LastPoint, Recorder
 from .settings import MasterSettings
 from .step_control import ErrorControl, FixedStep, StepController
@@ -80,6 +81,7 @@ __all__ = [
     "Outcome",
     "Participant",
     "ParticipantError",
+    "PointBlocks",
     "Recorder",
     "Refine",
     "Reject",

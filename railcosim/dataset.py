@@ -13,12 +13,12 @@ from .signals import COMPRESSION, FORWARDS, labels, signals_of
 from .surface_dataset import surface_dataset
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from numpy.typing import NDArray
 
     from .scenario import Scenario
-    from .signals import Dimension
+    from .signals import Dimension, Signal
     from .surface_tables import UnevenSurfaces
 
 
@@ -68,25 +68,62 @@ def assemble(
         vehicle ``bogie`` and ``car``, where surfaces are uneven ``rail_position`` and
         ``tread_angle``; units, long name and sign on every variable.
     """
+    flat = series["wheel_position"][:, scenario.flat.wheel - 1]
+    labelled = label_series(
+        scenario,
+        signals_of(scenario),
+        times=times,
+        distance=flat - scenario.flat_position,
+        series=series,
+    )
+    result = labelled.assign(attempt_variables(attempts)).assign(constants(scenario))
+    result.attrs = general_attributes(scenario) | dict(attributes)
+    return with_surfaces(result, surfaces)
+
+
+def label_series(
+    scenario: Scenario,
+    signals: Iterable[Signal],
+    *,
+    times: NDArray[np.float64],
+    distance: NDArray[np.float64],
+    series: Mapping[str, NDArray[np.float64]],
+) -> xr.Dataset:
+    """Label time series and what they are over.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        What was run.
+    signals : iterable of Signal
+        Which series.
+    times, distance : ndarray, shape (n,)
+        Times [s], and where the flat's wheel is then, from the flat's centre [m].
+    series : mapping of str to ndarray
+        Each of the signals by name, of shape (n, wheels), (n, sleepers) or (n, gauges).
+    """
     variables = {
         signal.name: (
             ("time", signal.dim),
             series[signal.name].astype(bool if signal.name == "in_contact" else float),
             signal.attributes,
         )
-        for signal in signals_of(scenario)
+        for signal in signals
     }
-    flat = series["wheel_position"][:, scenario.flat.wheel - 1]
-    result = xr.Dataset(
-        variables | attempt_variables(attempts) | _constants(scenario),
-        coords=_coordinates(scenario, times, flat - scenario.flat_position),
-        attrs={
-            "Conventions": "CF-1.11",
-            "title": "Passage of wheels over a discretely supported rail",
-            "scenario": to_toml(scenario),
-            **attributes,
-        },
-    )
+    return xr.Dataset(variables, coords=_coordinates(scenario, times, distance))
+
+
+def general_attributes(scenario: Scenario) -> dict[str, str]:
+    """Return the attributes that say what a result is."""
+    return {
+        "Conventions": "CF-1.11",
+        "title": "Passage of wheels over a discretely supported rail",
+        "scenario": to_toml(scenario),
+    }
+
+
+def with_surfaces(result: xr.Dataset, surfaces: UnevenSurfaces | None) -> xr.Dataset:
+    """Add what the wheels rolled over besides the flat, where there was anything."""
     if surfaces is None or surfaces.are_smooth:
         return result
     return result.merge(surface_dataset(surfaces), join="exact", compat="no_conflicts")
@@ -143,7 +180,7 @@ def _coordinates(
     }
 
 
-def _constants(scenario: Scenario) -> dict[str, object]:
+def constants(scenario: Scenario) -> dict[str, object]:
     """Name what the series are measured against."""
     return {
         "flat_wheel": ((), scenario.flat.wheel, labels("1", "number of the flat's wheel")),

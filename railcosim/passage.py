@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import fmpy
-import numpy as np
 from threadpoolctl import threadpool_limits
 
 import orchestrator
-from orchestrator import Master, Recorder
+from orchestrator import Master
 from orchestrator.replay import ReplayCase
 
 from .builds import build_for
@@ -20,14 +19,12 @@ from .coupled_system import (
     master_settings,
     with_steps_for,
 )
-from .dataset import assemble, count
 from .errors import InputError, RunError
 from .evidence import keeping_evidence
 from .input_tables import check_profiles
 from .motion import speed_law, travel_time
-from .passing_sleepers import show_sleepers
-from .run_record import attempts, doubts, programs, statistics
-from .signals import signals_of
+from .passage_record import recording
+from .run_record import doubts, programs, statistics
 from .surface_tables import compose, written
 from .watched_control import WatchedControl
 
@@ -36,18 +33,14 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     import xarray as xr
-    from numpy.typing import NDArray
 
     from build_fmus import FmuPaths
-    from orchestrator import FmuSource, Outcome, System
+    from orchestrator import FmuSource, Outcome, Recorder, System
     from vehicle_fmu.speed import SpeedLaw
 
     from .scenario import Scenario
-    from .signals import ContactSide, Signal
+    from .signals import ContactSide
     from .watched_control import Progress
-
-FEWEST_POINTS = 2
-"""Accepted points that make a result."""
 
 
 def run_passage(
@@ -58,6 +51,7 @@ def run_passage(
     timeout: float | None = None,
     replay: Path | None = None,
     directory: Path | None = None,
+    histories: Path | None = None,
     notify: Callable[[str], None] | None = None,
     report: Callable[[Progress], None] | None = None,
 ) -> xr.Dataset:
@@ -78,6 +72,9 @@ def run_passage(
         Replay file to write if the run fails.
     directory : Path, optional
         Where the FMUs are kept; `build_fmus.folder_of` without.
+    histories : Path, optional
+        New NetCDF file that the kept histories of a scenario with ``[keep]`` are written to while
+        it runs; the file is then the result, and what is returned lacks its histories.
     notify : callable, optional
         Told in a few words when an FMU has to be built, and of what makes the result doubtful.
     report : callable, optional
@@ -86,7 +83,8 @@ def run_passage(
     Returns
     -------
     xarray.Dataset
-        See `dataset.assemble`. Also after Ctrl-C, with the attribute ``complete`` then 0.
+        See `dataset.assemble`, or with ``[keep]`` `ThinnedRecord`. Also after Ctrl-C, with the
+        attribute ``complete`` then 0.
 
     Raises
     ------
@@ -102,43 +100,31 @@ def run_passage(
     paths = build_for(scenario, fmus, contact=contact, directory=directory, notify=notify)
     provenance = _provenance(paths)
 
-    def label(outcome: Outcome) -> xr.Dataset | None:
-        if len(recorder.time) < FEWEST_POINTS:
-            return None
-        return assemble(
-            scenario,
-            times=recorder.time,
-            series=_series(scenario, recorder, contact),
-            surfaces=surfaces,
-            attempts=attempts(outcome),
-            attributes={"fmus": fmus, "contact": contact, **provenance, **statistics(outcome)},
-        )
-
     try:
         with (
             threadpool_limits(limits=1, user_api="blas"),  # the matrices are too small for more
             written(scenario, surfaces, replay=replay) as files,
+            recording(scenario, contact, surfaces, histories=histories) as record,
         ):
             sources = fmu_sources(
                 scenario, paths, law, contact=contact, timeout=timeout, surfaces=files
             )
             system = join(sources, scenario.vehicle.wheels, contact)
-            signals = [
-                path
-                for signal in signals_of(scenario)
-                for path in _paths(scenario, signal, contact)
-            ]
-            recorder = Recorder(signals + _origins(scenario, contact) + _window(scenario))
-            case = _case(scenario, law, system, sources, recorder, contact=contact)
-            master = _master(system, case, recorder, report=report)
+            case = _case(scenario, law, system, sources, record.recorder, contact=contact)
+            master = _master(system, case, record.recorder, report=report)
+
+            def label(outcome: Outcome) -> xr.Dataset | None:
+                made_by = {"fmus": fmus, "contact": contact, **provenance}
+                return record.label(outcome, {**made_by, **statistics(outcome)})
+
             with keeping_evidence(case, replay, label):
                 outcome = master.run(case.start_time, case.stop_time)
+            result = label(outcome)
     except orchestrator.InputError as error:
         raise InputError(str(error)) from error
     if notify is not None:
         for doubt in doubts(outcome, system):
             notify(doubt)
-    result = label(outcome)
     if result is None:
         raise RunError("interrupted before there was anything to keep")
     return result
@@ -179,38 +165,6 @@ def _master(
     return Master(
         system, case.settings, controller=control, events=case.events, observers=[recorder]
     )
-
-
-def _paths(scenario: Scenario, signal: Signal, contact: ContactSide) -> list[str]:
-    return [signal.path(k, contact) for k in range(1, count(scenario)[signal.dim] + 1)]
-
-
-def _origins(scenario: Scenario, contact: ContactSide) -> list[str]:
-    """Name what wheel displacements count from, where that is not the unloaded rail."""
-    wheels = scenario.vehicle.wheels if contact == "track" else 0
-    return [f"track.wheel[{k}].static_displacement" for k in range(1, wheels + 1)]
-
-
-def _window(scenario: Scenario) -> list[str]:
-    """Name what tells which sleepers an endless track holds."""
-    return ["track.window_position"] if scenario.track.endless else []
-
-
-def _series(
-    scenario: Scenario, recorder: Recorder, contact: ContactSide
-) -> dict[str, NDArray[np.float64]]:
-    """Gather the columns of every signal, shape (times, wheels or sleepers or gauges)."""
-    series = {
-        signal.name: np.stack(
-            [recorder[path] for path in _paths(scenario, signal, contact)], axis=1
-        )
-        for signal in signals_of(scenario)
-    }
-    for wheel, path in enumerate(_origins(scenario, contact)):
-        series["wheel_displacement"][:, wheel] += recorder[path]
-    for path in _window(scenario):
-        show_sleepers(series, recorder[path], scenario)
-    return series
 
 
 def _provenance(paths: FmuPaths) -> dict[str, str]:

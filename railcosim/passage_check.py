@@ -11,7 +11,7 @@ from .errors import InputError
 from .run_record import ATTEMPT_COLUMNS
 from .scenario_file import from_toml
 from .signals import SIGNALS
-from .summary import CAUSES
+from .summary import CAUSES, is_thinned
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -67,8 +67,15 @@ def check_passage(passage: xr.Dataset, name: str) -> None:
     Raises
     ------
     InputError
-        For anything missing, of another shape or kind, not finite, or at odds with the scenario.
+        For histories that have been thinned, for anything missing, of another shape or kind, not
+        finite, or at odds with the scenario.
     """
+    if is_thinned(passage):
+        raise InputError(
+            f"{name} has only {passage.attrs['kept_signals']} every "
+            f"{passage.attrs['kept_spacing']:g} m but every history at every step is needed: run "
+            "its scenario without [keep]"
+        )
     wrong = _wrong_attribute(passage.attrs) or _wrong_variable(passage)
     if wrong is None:
         try:

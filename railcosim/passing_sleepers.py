@@ -22,7 +22,7 @@ def show_sleepers(
     Parameters
     ----------
     series : dict of str to ndarray
-        Every one of `SIGNALS`; those of sleepers, of shape (n, sleepers), by place in the window.
+        Of `SIGNALS`; those of sleepers, of shape (n, sleepers), by place in the window.
         Afterwards they are those of the bays around the flat, zero while the window is elsewhere.
     window : ndarray, shape (n,)
         Where the window begins [m].
@@ -33,7 +33,7 @@ def show_sleepers(
     offset = np.rint(window / scenario.track.sleeper_spacing).astype(np.intp)
     starts = np.flatnonzero(np.diff(offset, prepend=offset[0] - 1))
     for signal in SIGNALS:
-        if signal.dim != "sleeper":
+        if signal.dim != "sleeper" or signal.name not in series:
             continue
         shown = np.zeros_like(series[signal.name])
         for start, end in zip(starts, [*starts[1:], len(offset)], strict=True):

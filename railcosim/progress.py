@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
     from .watched_control import Progress
 
+INTERVAL = 0.1
+"""Time between two updates [s]; the time left is estimated from the last thousand of them."""
+
 
 @contextmanager
 def progress_bar(console: Console, label: str = "passage") -> Iterator[Callable[[Progress], None]]:
@@ -47,7 +50,14 @@ def progress_bar(console: Console, label: str = "passage") -> Iterator[Callable[
     with bars:
         task = bars.add_task(label, total=None, visible=False, time=0.0, step=0.0, rejected=0)
 
+        shown = -INTERVAL
+
         def report(progress: Progress) -> None:
+            nonlocal shown
+            now = bars.get_time()
+            if now - shown < INTERVAL and progress.time < progress.stop_time:
+                return
+            shown = now
             bars.update(
                 task,
                 total=progress.stop_time,

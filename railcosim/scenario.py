@@ -6,9 +6,11 @@ import math
 from dataclasses import dataclass, field, replace
 
 from .errors import InputError
+from .keep_section import Keep
 from .master_section import Master
 from .rail_sections import RailSection
 from .sections import Flat, Run, Surface
+from .signals import signals_of
 from .suspension_section import Suspension, check_bodies
 from .track_section import Track
 from .variation import Variation
@@ -27,7 +29,7 @@ class Scenario:
 
     Attributes
     ----------
-    track, variation, vehicle, suspension, flat, surface, run, master
+    track, variation, vehicle, suspension, flat, surface, run, keep, master
         The sections of the scenario file.
     irregularity : tuple
         What the rail is uneven by; added up.
@@ -49,6 +51,7 @@ class Scenario:
     wheel_defect: tuple[WheelSection, ...] = ()
     surface: Surface = field(default_factory=Surface)
     run: Run = field(default_factory=Run)
+    keep: Keep = field(default_factory=Keep)
     master: Master = field(default_factory=Master)
 
     def __post_init__(self) -> None:
@@ -56,6 +59,7 @@ class Scenario:
         check_bodies(self.vehicle, self.suspension)
         self._check_flat()
         self._check_uneven_surfaces()
+        self._check_keep()
         self._check_start_of_track()
         self._check_end_of_track()
 
@@ -142,6 +146,16 @@ class Scenario:
                 "vehicle.rail_irregularity and tables [[irregularity]] are both given: name the "
                 "file in a table of the kind csv"
             )
+
+    def _check_keep(self) -> None:
+        """Refuse to keep what the passage does not have."""
+        there = [signal.name for signal in signals_of(self)]
+        for name in self.keep.signals:
+            if name not in there:
+                raise InputError(
+                    f"keep.signals has {name} but a passage of this vehicle on this track has only "
+                    f"{', '.join(there)}: leave it out"
+                )
 
     @property
     def is_smooth(self) -> bool:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from . import rail_sections, wheel_sections
 from .errors import InputError
 from .fields import absolute_file
+from .keep_section import Keep
 from .master_section import Master
 from .presets import PRESETS
 from .scenario import Scenario
@@ -35,6 +36,7 @@ SECTIONS: Mapping[str, type[Any]] = {
     "run": Run,
     "master": Master,
     "surface": Surface,
+    "keep": Keep,
 }
 """Sections of a scenario file and the classes that check them."""
 
@@ -51,6 +53,9 @@ KEYS: Mapping[str, tuple[str, ...]] = {
     name: tuple(item.name for item in fields(kind)) for name, kind in SECTIONS.items()
 }
 """Keys of every section."""
+
+TomlValue: TypeAlias = bool | float | str | tuple[str, ...]
+"""What a key may hold."""
 
 Values: TypeAlias = dict[str, Any]
 """Of every section a dictionary of its keys, of every list its tables."""
@@ -111,6 +116,8 @@ def to_toml(scenario: Scenario) -> str:
     blocks = []
     for name, kind in SECTIONS.items():
         section = getattr(resolved, name)
+        if isinstance(section, Keep) and section.is_all:
+            continue
         values = {item.name: getattr(section, item.name) for item in fields(kind)}
         blocks.append(section_to_toml(name, values))
     for name in LISTS:
@@ -120,7 +127,7 @@ def to_toml(scenario: Scenario) -> str:
     return "\n".join(blocks)
 
 
-def section_to_toml(name: str, values: Mapping[str, bool | float | str | None]) -> str:
+def section_to_toml(name: str, values: Mapping[str, TomlValue | None]) -> str:
     """Write one section of a scenario file; keys without a value are left out."""
     lines = [
         f"{key} = {_toml_value(value)}"
@@ -230,13 +237,17 @@ def _check_section(section: str, keys: object) -> None:
 
 
 def _nearest(name: str) -> str:
-    """Find the ``section.key`` that a text resembles most; the right key in any section wins."""
-    words = [f"{section}.{key}" for section, keys in KEYS.items() for key in keys]
-    key = name.rpartition(".")[2]
+    """Find the ``section.key`` that a text resembles most.
 
-    def likeness(word: str) -> tuple[bool, float]:
+    A longer key of the section wins that ends with the key, then the right key in any section.
+    """
+    words = [f"{section}.{key}" for section, keys in KEYS.items() for key in keys]
+    section, _, key = name.rpartition(".")
+
+    def likeness(word: str) -> tuple[bool, bool, float]:
         same_key = word.rpartition(".")[2] == key
-        return same_key, difflib.SequenceMatcher(None, name, word).ratio()
+        longer_key = word.startswith(f"{section}.") and word.endswith(f"_{key}")
+        return longer_key, same_key, difflib.SequenceMatcher(None, name, word).ratio()
 
     return max(words, key=likeness)
 
@@ -245,8 +256,10 @@ def _listed(words: Iterable[str]) -> str:
     return ", ".join(words)
 
 
-def _toml_value(value: bool | float | str) -> str:
+def _toml_value(value: TomlValue) -> str:
     """Write a value so that reading it gives the same one, bit for bit."""
     if isinstance(value, bool):
         return str(value).lower()
+    if isinstance(value, tuple):
+        return json.dumps(list(value))
     return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)

@@ -5,16 +5,10 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from .contact_loss import contact_losses
+from .strike import PASSAGE_NUMBERS, strike_numbers
 
 if TYPE_CHECKING:
     import xarray as xr
-    from numpy.typing import NDArray
-
-WINDOW = (-0.1, 0.8)
-"""Part of the run that most numbers look at: the flat's wheel from the flat's centre [m]."""
 
 CAUSES = ("error", "event", "convergence", "discard", "invalid")
 """Why the master rejects an attempt."""
@@ -37,6 +31,26 @@ class Steps:
     accepted: int
     rejected: dict[str, int]
     iterations: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WholeRun:
+    """Extremes of all wheels over the whole run, every step of it, where ``[keep]`` thins it.
+
+    Attributes
+    ----------
+    largest_contact_force, smallest_contact_force : float
+        Of any wheel [N].
+    largest_contact_force_stretch : float
+        Where the stretch begins in which the largest one is, from the flat's centre [m].
+    time_without_contact : float
+        Of the wheel that has most of it [s].
+    """
+
+    largest_contact_force: float
+    largest_contact_force_stretch: float
+    smallest_contact_force: float
+    time_without_contact: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,6 +80,8 @@ class Summary:
         Time that passed in the simulation and on the clock [s].
     warnings, unreliable : list of str
         What makes the result doubtful, and what makes it wrong, a sentence each.
+    whole_run : WholeRun or None
+        None where the result has every history.
     """
 
     peak_contact_force: float | None
@@ -80,10 +96,14 @@ class Summary:
     wall_time: float
     warnings: list[str]
     unreliable: list[str]
+    whole_run: WholeRun | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """Return the numbers as a nested dict, as ``--json`` prints them."""
-        return asdict(self)
+        numbers = asdict(self)
+        if self.whole_run is None:
+            del numbers["whole_run"]
+        return numbers
 
 
 def summarise(passage: xr.Dataset) -> Summary:
@@ -99,25 +119,17 @@ def summarise(passage: xr.Dataset) -> Summary:
     Summary
         All its numbers.
     """
-    wheel = passage.sel(wheel=passage["flat_wheel"])
-    points = _window_points(passage["distance"].to_numpy())
-
-    def cut(variable: xr.DataArray) -> NDArray[np.float64]:
-        return np.interp(points, passage["distance"], variable)
-
-    force, losses = (
-        cut(wheel["contact_force"]),
-        contact_losses(cut(passage["time"]), cut(wheel["gap"])),
-    )
-    reached = points.size > 0
+    thinned = is_thinned(passage)
+    numbers = _kept_numbers(passage) if thinned else _worked_out(passage)
     return Summary(
-        peak_contact_force=float(force.max()) if reached else None,
-        peak_contact_force_position=float(points[force.argmax()]) if reached else None,
-        min_contact_force=float(force.min()) if reached else None,
-        loss_of_contact_time=sum((end - start for start, end in losses), 0.0) if reached else None,
-        max_sleeper_displacement=float(passage["sleeper_displacement"].max()),
-        peak_bending_moment_midspan=_largest(cut(passage["bending_moment"].isel(gauge=0))),
-        peak_bending_moment_under_wheel=_largest(cut(wheel["bending_moment_under_wheel"])),
+        peak_contact_force=numbers.get("peak_contact_force"),
+        peak_contact_force_position=numbers.get("peak_contact_force_position"),
+        min_contact_force=numbers.get("min_contact_force"),
+        loss_of_contact_time=numbers.get("loss_of_contact_time"),
+        max_sleeper_displacement=numbers["max_sleeper_displacement"],
+        peak_bending_moment_midspan=numbers.get("peak_bending_moment_midspan"),
+        peak_bending_moment_under_wheel=numbers.get("peak_bending_moment_under_wheel"),
+        whole_run=_whole_run(passage) if thinned else None,
         steps=steps_of(passage),
         simulated_time=float(passage.attrs["simulated_time"]),
         wall_time=float(passage.attrs["wall_time"]),
@@ -135,14 +147,25 @@ def steps_of(result: xr.Dataset) -> Steps:
     )
 
 
-def _window_points(distance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the distances inside `WINDOW` and its ends, none where the run has not reached it."""
-    start, end = max(WINDOW[0], distance[0]), min(WINDOW[1], distance[-1])
-    if end < start:
-        return np.empty(0)
-    inside = distance[(distance > start) & (distance < end)]
-    return np.unique(np.concatenate(([start], inside, [end])))
+def is_thinned(passage: xr.Dataset) -> bool:
+    """Tell whether a result has but the histories that ``[keep]`` names."""
+    return "kept_signals" in passage.attrs
 
 
-def _largest(values: NDArray[np.float64]) -> float | None:
-    return float(values.max()) if values.size else None
+def _worked_out(passage: xr.Dataset) -> dict[str, float]:
+    deepest = float(passage["sleeper_displacement"].max())
+    return strike_numbers(passage) | {"max_sleeper_displacement": deepest}
+
+
+def _kept_numbers(passage: xr.Dataset) -> dict[str, float]:
+    return {name: float(passage[name]) for name in PASSAGE_NUMBERS if name in passage}
+
+
+def _whole_run(passage: xr.Dataset) -> WholeRun:
+    largest = passage["contact_force_largest"].max("wheel")
+    return WholeRun(
+        largest_contact_force=float(largest.max()),
+        largest_contact_force_stretch=float(largest.idxmax()),
+        smallest_contact_force=float(passage["contact_force_smallest"].min()),
+        time_without_contact=float(passage["time_without_contact"].sum("stretch").max()),
+    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from .summary import WINDOW
+from .strike import WINDOW
 
 if TYPE_CHECKING:
     from .summary import Summary
@@ -47,6 +47,23 @@ def result_lines(summary: Summary) -> list[Line]:
                 "kN m",
             ),
         )
+    ]
+
+
+def whole_run_lines(summary: Summary) -> list[Line]:
+    """Return the extremes of a run whose histories are thinned, from every step of it."""
+    run = summary.whole_run
+    if run is None:
+        return []
+    return [
+        Line(
+            "of any wheel, anywhere: largest contact force",
+            f"{1e-3 * run.largest_contact_force:.3f}",
+            "kN",
+        ),
+        Line("  in the stretch from", f"{run.largest_contact_force_stretch:.0f}", "m"),
+        Line("  smallest contact force", f"{1e-3 * run.smallest_contact_force:.3f}", "kN"),
+        Line("  time without contact", f"{1e3 * run.time_without_contact:.3f}", "ms"),
     ]
 
 

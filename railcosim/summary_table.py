@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from rich.table import Table
 
-from .summary_lines import WINDOW_CAPTION, effort_lines, result_lines
+from .summary_lines import WINDOW_CAPTION, effort_lines, result_lines, whole_run_lines
 
 if TYPE_CHECKING:
     from .summary import Summary
@@ -31,9 +31,8 @@ def summary_table(summary: Summary, title: str) -> Table:
     table.add_column("what")
     table.add_column("value", justify="right")
     table.add_column("unit")
-    for line in result_lines(summary):
-        table.add_row(*line)
-    table.add_section()
-    for line in effort_lines(summary):
-        table.add_row(*line)
+    for lines in (result_lines, whole_run_lines, effort_lines):
+        for line in lines(summary):
+            table.add_row(*line)
+        table.add_section()
     return table

@@ -4,6 +4,7 @@ import runpy
 from pathlib import Path
 
 import numpy as np
+import psutil
 import pytest
 
 from build_fmus import ensure_fmus
@@ -15,6 +16,7 @@ from railcosim.passage import run_passage
 from railcosim.passage_package import ensure_package
 from railcosim.receptance.points import Place
 from railcosim.receptance.study import ReceptanceStudy
+from railcosim.result_file import read_netcdf
 from railcosim.scenario import Scenario
 from railcosim.scenario_file import read_scenario
 from railcosim.summary import summarise
@@ -214,6 +216,52 @@ def test_coach():
     assert float(passage["bogie_acceleration"].max()) == pytest.approx(0.3833, rel=5e-3)
     # the strike of 18 kN for some milliseconds, on 44 t: the car body does not feel it
     assert float(abs(passage["car_acceleration"]).max()) < 0.005
+
+
+def test_the_first_of_ten_kilometres():
+    """318.76 kN at half the step; the force that is kept has the static mean."""
+    scenario = read_scenario(EXAMPLES / "kilometres.toml", ["run.departure=116.1"])
+    result = run_passage(scenario, fmus="native", contact="track")
+    summary = summarise(result)
+    assert summary.whole_run.largest_contact_force == pytest.approx(318.73e3, rel=1e-3)
+    assert summary.peak_contact_force == pytest.approx(241.64e3, rel=1e-3)
+    assert summary.unreliable == []
+    assert result.sizes["time"] == 1201
+    mean = result["contact_force"].mean("time")
+    static = float(result["static_wheel_load"])
+    assert np.abs(mean - static).max() < 0.01 * static
+
+
+@pytest.mark.slow
+def test_ten_kilometres(tmp_path):
+    """As much memory and time a metre at the end as at the beginning."""
+    output, process = tmp_path / "kilometres.nc", psutil.Process()
+    points = []
+
+    def watch(progress):
+        if progress.time >= len(points):  # once a second, which are 56 m
+            points.append((process.cpu_times().user, process.memory_info().rss / 1e6))
+
+    run_passage(
+        read_scenario(EXAMPLES / "kilometres.toml"),
+        fmus="native",
+        contact="track",
+        histories=output,
+        report=watch,
+    )
+    used, memory = np.array(points[1:]).T
+    settled = memory[len(memory) // 4 :]  # 16 MB of the step log stay in memory, then none
+    assert settled.max() - settled.min() < 20.0
+    cost = np.diff(used)
+    quarter = len(cost) // 4
+    # other programs on the machine leave a tenth of doubt
+    assert np.median(cost[-quarter:]) == pytest.approx(np.median(cost[:quarter]), rel=0.15)
+    result = read_netcdf(output, "")
+    assert result.sizes["time"] == 100_001
+    assert result["distance"][-1] == pytest.approx(9996.1)
+    assert result["contact_force_largest"].sizes["stretch"] == 101
+    # the flat strikes in every stretch
+    assert result["contact_force_largest"].sel(wheel=1).min() > 250e3
 
 
 def test_sleepers(tmp_path):

@@ -118,6 +118,7 @@ def _passage(
         side = ContactName(passage.attrs["contact"])
         return passage, _runner(fmus, side, quiet=quiet)
     scenario = read_scenario(source, overrides)
+    scenario.keep.need_all("railcosim report")
     side = contact or ContactName.VEHICLE
     for note in notes(scenario, side.value):
         say(f"note: {note}")

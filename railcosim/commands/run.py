@@ -1,6 +1,7 @@
 """`railcosim run`: one passage."""
 
 import json
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Annotated
@@ -10,13 +11,13 @@ import xarray as xr
 from rich.console import Console
 
 from ..builds import usual_build
+from ..errors import RunError
 from ..figures.passage import describe, draw_passage
 from ..notes import notes
-from ..output import write_dataset, write_figure
+from ..output import replacing, write_dataset, write_figure
 from ..passage import run_passage
 from ..progress import progress_bar
 from ..result_check import check_result
-from ..scenario import Scenario
 from ..scenario_file import read_scenario
 from ..summary import summarise
 from ..summary_table import summary_table
@@ -68,17 +69,23 @@ def run(
         limit = time_limit(timeout, isolate=isolate)
         for note in notes(case, contact.value):
             say(f"note: {note}")
-        with keeping(output), stdout_for_results():
-            passage = _followed_run(
-                case,
-                usual_build(contact.value) if fmus is None else fmus.value,
-                contact,
-                timeout=limit,
-                replay=replay_file(replay, output),
-                quiet=quiet,
-            )
-        if output is not None:
-            write_dataset(passage, output)
+        if plot is not None:
+            case.keep.need_all("--plot")
+        run_case = partial(
+            run_passage,
+            case,
+            fmus=usual_build(contact.value) if fmus is None else fmus.value,
+            contact=contact.value,
+            timeout=limit,
+            replay=replay_file(replay, output),
+        )
+        if case.keep.is_all or output is None or output.suffix.lower() != ".nc":
+            with keeping(output):
+                passage = _followed(run_case, quiet=quiet)
+            if output is not None:
+                write_dataset(passage, output)
+        else:
+            passage = _written_on_the_way(run_case, output, quiet=quiet)
         if plot is not None:
             write_figure(draw_passage(passage), plot)
         summary = summarise(passage)
@@ -89,25 +96,27 @@ def run(
         check_result(passage)
 
 
-def _followed_run(
-    case: Scenario,
-    fmus: str,
-    contact: ContactName,
-    *,
-    timeout: float | None,
-    replay: Path | None,
-    quiet: bool,
-) -> xr.Dataset:
+def _followed(run_case: Callable[..., xr.Dataset], *, quiet: bool) -> xr.Dataset:
     """Run with a progress bar on stderr, or without a word."""
-    run_case = partial(
-        run_passage,
-        case,
-        fmus=fmus,
-        contact=contact.value,
-        timeout=timeout,
-        replay=replay,
-    )
-    if quiet:
-        return run_case()
-    with progress_bar(Console(stderr=True)) as report:
-        return run_case(notify=say, report=report)
+    with stdout_for_results():
+        if quiet:
+            return run_case()
+        with progress_bar(Console(stderr=True)) as report:
+            return run_case(notify=say, report=report)
+
+
+def _written_on_the_way(
+    run_case: Callable[..., xr.Dataset], output: Path, *, quiet: bool
+) -> xr.Dataset:
+    """Run, histories going to the file; it appears at the end, also where there is a part only."""
+    failure: RunError | None = None
+    with replacing(output) as temporary:
+        try:
+            passage = _followed(partial(run_case, histories=temporary), quiet=quiet)
+        except RunError as error:
+            if error.result is None:
+                raise
+            failure = error
+    if failure is not None:
+        raise failure
+    return passage

@@ -62,6 +62,7 @@ def verify(
     """Compare a co-simulated passage with an independent solution; exit code 0 if they agree."""
     with exit_codes():
         case = read_scenario(scenario, overrides or ())
+        case.keep.need_all("railcosim verify")
         check_output(output)
         if plot is not None:
             check_writable(plot, option="--plot", suffixes=FIGURE_SUFFIXES)

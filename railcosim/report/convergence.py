@@ -11,7 +11,8 @@ import numpy as np
 
 from ..errors import RunError
 from ..scenario_file import from_toml
-from ..summary import WINDOW, Summary, summarise
+from ..strike import WINDOW
+from ..summary import Summary, summarise
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
     from ..scenario import Scenario
     from ..signals import ContactSide
-    from .histories import Keep
 
 Swept: TypeAlias = bool | int | float | str
 """Value of a swept key."""
@@ -71,15 +70,12 @@ class Case:
         What is run.
     options : Options
         With which FMUs.
-    keep : Keep, optional
-        Which histories are kept.
     """
 
     number: int
     swept: Mapping[str, Swept]
     scenario: Scenario
     options: Options = field(default_factory=Options)
-    keep: Keep | None = None
 
     @property
     def name(self) -> str:

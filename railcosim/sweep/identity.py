@@ -76,7 +76,6 @@ def content_key(case: Case, fingerprints: Fingerprints) -> str:
     material = {
         "scenario": _described(case, fingerprints),
         "options": asdict(case.options),
-        "keep": None if case.keep is None else asdict(case.keep),
         "programs": programs_in_use(),
     }
     text = json.dumps(material, sort_keys=True)

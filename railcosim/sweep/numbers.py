@@ -4,34 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..signals import COMPRESSION, DOWN, FORWARDS, SAGGING
+from ..strike import PASSAGE_NUMBERS
 from ..summary import CAUSES, summarise
 
 if TYPE_CHECKING:
     import xarray as xr
 
-_FLAT_WHEEL = "of the flat's wheel, 0.1 m before to 0.8 m after the flat's centre"
-
 NUMBERS: dict[str, tuple[str, str, str]] = {
-    "peak_contact_force": ("N", f"largest contact force {_FLAT_WHEEL}", COMPRESSION),
-    "peak_contact_force_position": (
-        "m",
-        "distance from the flat's centre at the largest contact force",
-        FORWARDS,
-    ),
-    "min_contact_force": ("N", f"smallest contact force {_FLAT_WHEEL}", COMPRESSION),
-    "loss_of_contact_time": ("s", f"time without contact {_FLAT_WHEEL}", "none"),
-    "max_sleeper_displacement": ("m", "largest displacement of any sleeper", DOWN),
-    "peak_bending_moment_midspan": (
-        "N m",
-        "largest bending moment of the rail in the middle of the struck bay",
-        SAGGING,
-    ),
-    "peak_bending_moment_under_wheel": (
-        "N m",
-        "largest bending moment of the rail under the flat's wheel",
-        SAGGING,
-    ),
+    **PASSAGE_NUMBERS,
     "simulated_time": ("s", "simulated time", "none"),
     "steps_accepted": ("1", "accepted steps", "none"),
     **{

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..dataset import count
 from ..errors import InputError
-from .histories import KEPT
+from ..keep_section import KEPT
 from .identity import Fingerprints, content_key, files_of
 
 if TYPE_CHECKING:
@@ -114,7 +114,7 @@ class _Extent:
     def points(self, study: Study) -> NDArray[np.float64]:
         """Return the common points of the histories; none where none are kept."""
         keep = study.keep
-        if keep is None:
+        if keep.is_all:
             return np.empty(0)
         for name in keep.signals:
             dim = KEPT[name].dim
@@ -124,4 +124,4 @@ class _Extent:
                     "leave it out, or sweep them in a study of their own"
                 )
         first, after = keep.grid(-self._before, self._after)
-        return keep.spacing * np.arange(first, after, dtype=np.float64)
+        return keep.grid_spacing * np.arange(first, after, dtype=np.float64)

@@ -8,9 +8,9 @@ import numpy as np
 import xarray as xr
 
 from ..errors import RunError
+from ..keep_section import KEPT
 from ..run_record import programs
 from ..signals import FORWARDS
-from .histories import KEPT
 from .numbers import NUMBERS
 from .study import coordinate
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from .histories import Keep
+    from ..keep_section import Keep
     from .plan import Plan
     from .store import Record, Store
     from .study import Study
@@ -66,7 +66,7 @@ def assemble_study(plan: Plan, store: Store) -> xr.Dataset:
         texts = np.array([getattr(record, name) for record in records]).reshape(shape)
         variables[name] = (study.dims, texts, {"long_name": meaning})
     coordinates = _coordinates(study)
-    if study.keep is not None:
+    if not study.keep.is_all:
         worked = {n: plan.keys[n] for n, record in enumerate(records) if not record.failure}
         histories, axes = _histories(plan, study.keep, worked, store)
         variables |= histories
@@ -126,7 +126,7 @@ def _histories(
     arrays: dict[str, NDArray[np.float64]] = {}
     for place, key in worked.items():
         stored = store.histories(key)
-        start = round(points[0] / keep.spacing) - int(stored["first"]) if points.size else 0
+        start = round(points[0] / keep.grid_spacing) - int(stored["first"]) if points.size else 0
         for name in keep.signals:
             part = stored[name][start : start + points.size]
             if name not in arrays:

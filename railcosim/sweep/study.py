@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from copy import deepcopy
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..fields import holds_float
+from ..keep_section import Keep
 from ..scenario_file import SECTIONS, Values, build_scenario, no_values, put
 from .case import Case, Options
 from .ranges import MOST_CASES
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from .case import Swept
-    from .histories import Keep
 
 OPTIONS = ("contact", "fmus")
 """Keys of ``options``."""
@@ -58,8 +58,8 @@ class Study:
         Values of ``section.key``; every key is a dimension of the result.
     rows : tuple of mapping of str to value
         Cases that were listed or drawn, with the same keys each; empty for a mere grid.
-    keep : Keep, optional
-        Which histories every case keeps.
+    keep : Keep
+        Which histories every case keeps; none without signals.
 
     Raises
     ------
@@ -73,7 +73,7 @@ class Study:
     base: Base = field(default_factory=Base)
     grid: Mapping[str, tuple[Swept, ...]] = field(default_factory=dict)
     rows: tuple[Mapping[str, Swept], ...] = ()
-    keep: Keep | None = None
+    keep: Keep = field(default_factory=Keep)
 
     def __post_init__(self) -> None:
         if not (self.grid or self.rows):
@@ -117,7 +117,7 @@ class Study:
         place = [int(n) for n in np.unravel_index(index, self.shape)]
         swept = dict(self.rows[place.pop(0)]) if self.rows else {}
         swept |= {key: self.grid[key][n] for key, n in zip(self.grid, place, strict=True)}
-        values = deepcopy(self.base.values)
+        values = deepcopy(self.base.values) | {"keep": asdict(self.keep)}
         options = dict(self.base.options)
         try:
             for name, value in swept.items():
@@ -127,9 +127,7 @@ class Study:
         except InputError as error:
             keys = ", ".join(f"{key} = {value}" for key, value in swept.items())
             raise InputError(f"case {index + 1} ({keys}): {error}") from error
-        return Case(
-            number=index + 1, swept=swept, scenario=scenario, options=chosen, keep=self.keep
-        )
+        return Case(number=index + 1, swept=swept, scenario=scenario, options=chosen)
 
     def cases(self) -> Iterator[Case]:
         """Yield every case."""
@@ -147,6 +145,8 @@ def place_key(
         For an unknown key.
     """
     section, _, key = name.partition(".")
+    if section == "keep":
+        raise InputError(f"{name} is the same for all cases: give it in the table [keep]")
     if section != "options":
         put(values, section, key, value, folder)
     elif key in OPTIONS:

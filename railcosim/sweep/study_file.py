@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
+from ..keep_section import Keep, read_keep
 from ..scenario_file import LISTS, no_values, put_all
 from ..table_lists import numbered
 from ..toml_text import parse_toml, read_text
-from .histories import Keep
 from .random_rows import random_rows
 from .ranges import grid_values
 from .study import Base, Study, place_key
@@ -57,17 +57,18 @@ def parse_study(text: str, *, folder: Path | None = None, name: str = "study") -
     if "list" in sweep and "random" in sweep:
         raise InputError("sweep.list and sweep.random are both given: leave one of them out")
     base_text = _base_text(base.get("scenario"), folder)
+    common = _base(base, base_text, folder)
     return Study(
         text=text,
         base_text=base_text,
         folder=folder,
-        base=_base(base, base_text, folder),
+        base=common,
         grid={
             key: grid_values(key, given)
             for key, given in _flat(_table(sweep, "grid"), "sweep.grid", folder).items()
         },
         rows=_rows(sweep, folder),
-        keep=_keep(_table(tables, "keep")) if "keep" in tables else None,
+        keep=_keep(tables, common),
     )
 
 
@@ -112,14 +113,9 @@ def _rows(sweep: Mapping[str, Any], folder: Path) -> tuple[Mapping[str, Swept], 
     return tuple(rows)
 
 
-def _keep(given: Mapping[str, Any]) -> Keep:
-    _refuse_unknown(given, ("signals", "spacing"), "[keep]")
-    signals = given.get("signals")
-    if not (isinstance(signals, list) and all(isinstance(name, str) for name in signals)):
-        raise InputError(f"keep.signals is {signals!r} but must be a list of names")
-    if "spacing" not in given:
-        raise InputError("keep.spacing is missing: give the distance of neighbouring points [m]")
-    return Keep(signals=tuple(signals), spacing=given["spacing"])
+def _keep(tables: Mapping[str, Any], base: Base) -> Keep:
+    """Return what the study keeps of every case, or else the scenario that it names."""
+    return read_keep(_table(tables, "keep")) if "keep" in tables else Keep(**base.values["keep"])
 
 
 def _flat(tables: Mapping[str, Any], where: str, folder: Path) -> dict[str, Any]:

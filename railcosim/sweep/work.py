@@ -7,18 +7,20 @@ import traceback
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ..errors import BuildError, InputError, RunError
 from ..passage import run_passage
 from ..result_check import check_result
-from .histories import reduce
 from .identity import Fingerprints, content_key
 from .numbers import numbers_of
 from .store import Record
 
 if TYPE_CHECKING:
-    import numpy as np
+    import xarray as xr
     from numpy.typing import NDArray
 
+    from ..scenario import Scenario
     from .case import Case
     from .store import Store
 
@@ -115,4 +117,12 @@ def _run(case: Case, scratch: Path) -> tuple[Record, dict[str, NDArray[np.float6
         warnings=passage.attrs["warnings"],
         fmu_guids=(passage.attrs["track_fmu_guid"], passage.attrs["vehicle_fmu_guid"]),
     )
-    return record, None if case.keep is None else reduce(passage, case.keep, case.scenario.run)
+    keeps = not case.scenario.keep.is_all
+    return record, _histories(passage, case.scenario) if keeps else None
+
+
+def _histories(passage: xr.Dataset, scenario: Scenario) -> dict[str, NDArray[np.float64]]:
+    """Return the kept signals by name; ``first`` is the multiple of the spacing of the first."""
+    keep, run = scenario.keep, scenario.run
+    first, _ = keep.grid(-run.approach, run.departure)
+    return {"first": np.array(first)} | {name: passage[name].to_numpy() for name in keep.signals}

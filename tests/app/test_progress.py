@@ -53,3 +53,19 @@ def test_nothing_is_shown_where_there_is_no_terminal():
     with progress_bar(Console(file=file, force_terminal=False)) as report:
         report(Progress(0.25, 0.5, 1e-4, 0))
     assert file.getvalue() == ""
+
+
+def test_the_time_left_follows_from_half_a_minute_not_from_the_last_steps():
+    """Ten thousand steps a second; those of the last tenth of a second are ten times as fast."""
+    now = 0.0
+    file = io.StringIO()
+    console = Console(file=file, force_terminal=True, width=120, get_time=lambda: now)
+    with progress_bar(console) as report:
+        for step in range(1000, 300_000, 100):
+            now = 1e-4 * step
+            report(Progress(now, 60.0, 1e-4, 0))
+        for step in range(2000):
+            now += 1e-5
+            report(Progress(29.99 + 1e-4 * step, 60.0, 1e-4, 0))
+    shown = file.getvalue()
+    assert "0:00:31" in shown  # 30.01, rounded up

@@ -40,8 +40,9 @@ def test_growing_jumps_are_found(root, extrapolate):
         np.where(late() < 200, 0.0, 1e6 * np.exp(-0.3 * (late() - 200)) * np.cos(late())),
         np.maximum(np.sin(0.05 * late()), 0.0) ** 1.5,
         1e-14 * np.random.default_rng(1).standard_normal(400),
+        np.abs(late(1000) % 14 - 7.0),
     ],
-    ids=["growth", "wave", "offset", "jump", "impact", "contact", "rounding"],
+    ids=["growth", "wave", "offset", "jump", "impact", "contact", "rounding", "kinks"],
 )
 def test_what_is_resolved_or_jumps_once_is_left_alone(series, extrapolate):
     assert follow(series, extrapolate=extrapolate).warning == ""
