@@ -41,16 +41,27 @@ EXCHANGED: Mapping[ContactSide, tuple[tuple[str, str, str], ...]] = {
 }
 """From where to where which quantity of every wheel goes."""
 
+EXCHANGED_AT_START: tuple[tuple[str, str, str], ...] = (
+    ("track", "vehicle", "static_displacement"),
+    ("track", "vehicle", "static_velocity"),
+    ("track", "vehicle", "mean_velocity"),
+    ("vehicle", "track", "velocity"),
+    ("vehicle", "track", "load_change"),
+)
+"""Likewise, what vehicle and track with the contacts settle during the initialisation only."""
 
-def join(sources: Iterable[FmuSource], wheels: int, contact: ContactSide = "vehicle") -> System:
-    """Open the FMUs and connect them over so many wheels.
+
+def join(
+    sources: Iterable[FmuSource], scenario: Scenario, contact: ContactSide = "vehicle"
+) -> System:
+    """Open the FMUs and connect them over the wheels of a scenario.
 
     Raises
     ------
     orchestrator.errors.InputError
         For an FMU that is missing, corrupt or another one.
     """
-    return System([source.open() for source in sources], connections(wheels, contact))
+    return System([source.open() for source in sources], connections(scenario, contact))
 
 
 def fmu_sources(
@@ -110,22 +121,33 @@ def connect(
 ) -> System:
     """Join track and vehicle; see `fmu_sources` and `join`."""
     sources = fmu_sources(scenario, paths, law, contact=contact, timeout=timeout)
-    return join(sources, scenario.vehicle.wheels, contact)
+    return join(sources, scenario, contact)
 
 
-def connections(wheels: int, contact: ContactSide = "vehicle") -> list[Connection]:
+def connections(scenario: Scenario, contact: ContactSide = "vehicle") -> list[Connection]:
     """Return positions and forces to the track, and rail displacements back.
 
-    With contact on the track side, positions and wheel displacements, and forces back.
+    With contact on the track side, positions and wheel displacements, and forces back; also what
+    the start is settled by, unless wheels that do not know of each other start on a smooth surface.
     """
+    exchanged = EXCHANGED[contact]
+    if contact == "track" and not _starts_level(scenario):
+        exchanged += EXCHANGED_AT_START
     return [
         Connection(
             source=f"{source}.wheel[{k}].{name}",
             target=f"{target}.wheel[{k}].{name}",
         )
-        for k in range(1, wheels + 1)
-        for source, target, name in EXCHANGED[contact]
+        for k in range(1, scenario.vehicle.wheels + 1)
+        for source, target, name in exchanged
     ]
+
+
+def _starts_level(scenario: Scenario) -> bool:
+    """Whether nothing can move or load a wheel otherwise at the start than at rest."""
+    vehicle = scenario.vehicle
+    uneven = vehicle.rail_irregularity or scenario.irregularity or scenario.wheel_defect
+    return vehicle.model == "masses" and not uneven
 
 
 def indicators(wheels: int, contact: ContactSide = "vehicle") -> list[str]:

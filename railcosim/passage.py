@@ -109,7 +109,7 @@ def run_passage(
             sources = fmu_sources(
                 scenario, paths, law, contact=contact, timeout=timeout, surfaces=files
             )
-            system = join(sources, scenario.vehicle.wheels, contact)
+            system = join(sources, scenario, contact)
             case = _case(scenario, law, system, sources, record.recorder, contact=contact)
             master = _master(system, case, record.recorder, report=report)
 

@@ -94,10 +94,9 @@ def describe_passage(
     """
     scenario = with_steps_for(scenario, contact)
     law = speed_law(scenario.vehicle)
-    wheels = scenario.vehicle.wheels
     links = tuple(
         Link(start=_end(item.source), end=_end(item.target))
-        for item in connections(wheels, contact)
+        for item in connections(scenario, contact)
     )
     return SystemDescription(
         name="Passage",

@@ -9,6 +9,14 @@ import numpy as np
 from .beam_element import FloatArray
 from .contact_law import ContactLaw, Surface
 from .contact_solution import solve_contact
+from .contact_start import (
+    INSTANT,
+    SWAY,
+    check_displacements,
+    check_start,
+    first_step_doubts,
+    surface_rate,
+)
 from .contact_state import ContactState
 from .continuation import begin, continued, remember
 from .observation import Observation
@@ -100,54 +108,64 @@ class ContactTrack:
         """
         return self._own.origin.copy()
 
+    @property
+    def static_velocity(self) -> FloatArray:
+        """Velocity with which each wheel follows the surface at the start [m/s], (wheels,)."""
+        return self._own.velocity.copy()
+
+    @property
+    def mean_velocity(self) -> FloatArray:
+        """The same in the mean over `SWAY`, half of it before the start [m/s], (wheels,)."""
+        return self._own.mean_velocity.copy()
+
     def observe(self) -> Observation:
         """Displacements, forces and bending moments of the track in the present state."""
         return self._track.observe()
 
-    def start(self, positions: FloatArray, displacements: FloatArray) -> None:
+    def start(
+        self,
+        positions: FloatArray,
+        displacements: FloatArray,
+        *,
+        load_change: FloatArray | float = 0.0,
+        velocity: FloatArray | float = 0.0,
+    ) -> None:
         """Set the static equilibrium under the static loads.
 
         Parameters
         ----------
         positions, displacements : (wheels,) float array
             Of the wheels [m]; the displacements are what later ones count from.
+        load_change : (wheels,) float array
+            What each wheel presses with beyond the static load [N].
+        velocity : (wheels,) float array
+            With which the vehicle starts to move each wheel [m/s].
 
         Raises
         ------
         ValueError
-            If a wheel is not on the track or a displacement is not a number.
+            If a wheel is not on the track or not pressed on it, or a value is not a number.
         RuntimeError
             If the equilibrium is not found.
         """
-        _check_displacements(displacements)
-        own, loads = self._own, np.full(len(positions), self._static_load)
+        check_displacements(displacements)
+        own, loads = self._own, np.full(len(positions), self._static_load) + load_change
+        velocities = np.zeros_like(positions) + velocity
+        check_start(loads, velocities)
         self._track.start(positions, loads)
         own.compression[:] = self._law.compression(loads)
         own.origin[:] = self._track.rail_displacement + self._surface.drops(positions)
         own.origin += own.compression - displacements
         own.ahead[:] = loads
+        speed = self._track.options.initial_speed
+        own.velocity[:] = surface_rate(self._surface, positions, speed=speed, span=INSTANT)
+        own.mean_velocity[:] = surface_rate(self._surface, positions, speed=speed, span=SWAY)
         own.passed[0] = 0.0
-        self._begin(np.concatenate((positions, displacements)))
+        self._begin(np.concatenate((positions, displacements)), velocities)
 
     def doubts(self, step_size: float, positions: FloatArray) -> list[str]:
         """What is doubtful about a first step of given start values, a sentence each."""
-        own = self._own
-        found: list[str] = []
-        if own.passed[0] > 0.0:
-            return found
-        if step_size > LONGEST_PART * (1.0 + 1e-9):
-            found.append(
-                f"steps of {step_size:.6g} s are too long for values that are known at their start "
-                f"only: use {LONGEST_PART:g} s or less"
-            )
-        if not np.array_equal(own.history[0, : len(positions)], positions):
-            found.append(
-                f"at the start of the first step wheel 1 is at {positions[0]:.9g} m, at the static "
-                f"start it was at {own.history[0, 0]:.9g} m: set linear_inputs = true in a host "
-                "that steps the vehicle first, or the start values of the positions in one that "
-                "connects nothing before the first step"
-            )
-        return found
+        return first_step_doubts(self._own, step_size, positions, longest=LONGEST_PART)
 
     def step(
         self,
@@ -178,7 +196,7 @@ class ContactTrack:
             If the forces do not converge. The state is then unchanged.
         """
         parts = count_parts(step_size, LONGEST_PART)
-        _check_displacements(displacements)
+        check_displacements(displacements)
         self._track.window.check(positions)
         own, before = self._own, self.state
         given = np.concatenate((positions, displacements))
@@ -189,7 +207,8 @@ class ContactTrack:
             now = continued(own.history, own.ages, passed) if linear else given
             remember(own.history, own.ages, now, passed)
         elif not linear and not np.array_equal(given, own.history[0]):
-            self._begin(given)
+            moved = own.history[0] - own.history[1]
+            self._begin(given, moved[len(positions) :] / own.ages[0])
         try:
             for part in range(1, parts + 1):
                 share = part / parts
@@ -210,10 +229,10 @@ class ContactTrack:
         own.passed[0] = 0.0 if linear else step_size
         own.ahead[:] = np.maximum(1.5 * self.contact_force - 0.5 * force, 0.0)
 
-    def _begin(self, given: FloatArray) -> None:
-        """Continue from given positions and displacements as if nothing had been given before."""
-        rate = np.zeros_like(given)
-        rate[: len(given) // 2] = self._track.options.initial_speed
+    def _begin(self, given: FloatArray, velocity: FloatArray) -> None:
+        """Continue given positions and displacements, these with a velocity, from nothing else."""
+        speed = np.full_like(velocity, self._track.options.initial_speed)
+        rate = np.concatenate((speed, velocity))
         begin(self._own.history, self._own.ages, given, rate=rate, age=LONGEST_PART)
 
     def _advance(self, step_size: float, positions: FloatArray, displacements: FloatArray) -> None:
@@ -229,12 +248,3 @@ class ContactTrack:
         )
         self._track.move(operator, solution.force, solution.increment)
         own.compression[:] = solution.compression
-
-
-def _check_displacements(displacements: FloatArray) -> None:
-    for number, displacement in enumerate(displacements, start=1):
-        if not math.isfinite(displacement):
-            raise ValueError(
-                f"track: displacement {float(displacement)!r} m of wheel {number} must be a finite "
-                "number; look for the cause in the vehicle"
-            )

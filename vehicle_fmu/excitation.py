@@ -58,6 +58,14 @@ class Excitation:
         positions = self.positions(start, time)
         return [profile(x) for profile, x in zip(self._profiles, positions, strict=True)]
 
+    def rates(self, start: float, span: float) -> list[float]:
+        """Return how fast the drop under each wheel grows at the start time [m/s].
+
+        The mean over a span [s], half of it before the start time and half after.
+        """
+        before, after = (self.drops(start, start + sign * 0.5 * span) for sign in (-1.0, 1.0))
+        return [(b - a) / span for a, b in zip(before, after, strict=True)]
+
     def drops_over_step(self, start: float, time: float, step_size: float) -> list[list[float]]:
         """Return the drops at start, middle and end of each of the n equal substeps of a step.
 

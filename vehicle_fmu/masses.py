@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .speed import SpeedLaw
+from .standing import Standing, level
 from .validation import (
     FloatArray,
     check_offsets,
@@ -81,8 +82,8 @@ class Masses:
         self._state: FloatArray = np.full(3 + 4 * len(self._offsets), math.nan)
         self._wheels = self._state[3:].reshape(4, -1)
 
-    def initialise(self, time: float, forces: FloatArray) -> None:
-        """Put every wheel at rest in its static position.
+    def initialise(self, time: float, forces: FloatArray, standing: Standing | None = None) -> None:
+        """Put every wheel in its static position.
 
         Parameters
         ----------
@@ -90,6 +91,8 @@ class Masses:
             Start time [s]; wheel 1 is at `initial_position` then.
         forces : ndarray, shape (wheels,)
             Contact forces [N]; in equilibrium they are the static load.
+        standing : Standing, optional
+            How the wheels stand and move; at rest on a level rail without.
 
         Raises
         ------
@@ -99,9 +102,10 @@ class Masses:
         if not math.isfinite(time):
             raise ValueError(f"the start time is {time:g} s; it must be a finite number")
         check_forces(forces)
+        standing = standing or level(len(self._offsets))
+        self._put(standing)
         self._state[:3] = time, time, 0.0
-        self._wheels[:] = 0.0
-        self._wheels[2] = forces
+        self._wheels[1:] = standing.velocity, forces, np.zeros_like(forces)
 
     def step(self, time: float, step_size: float, forces: FloatArray, *, linear: bool) -> None:
         """Move on by one step.
@@ -168,6 +172,16 @@ class Masses:
     def velocity(self) -> FloatArray:
         """Velocity of each wheel [m/s], positive downwards, shape (wheels,)."""
         return self._moved(float(self._state[2]), self._wheels[3])[1]
+
+    @property
+    def load_change(self) -> FloatArray:
+        """What each wheel starts with beyond its static load [N], shape (wheels,)."""
+        return np.zeros_like(self._offsets)
+
+    def _put(self, standing: Standing) -> None:
+        """Place the wheels; a refusal leaves everything as it was."""
+        del standing  # wheels that do not know of each other count from where they stand
+        self._wheels[0] = 0.0
 
     def _check_motion(self) -> None:
         """Refuse a state in which not everything is a finite number."""

@@ -4,9 +4,11 @@ import math
 
 import numpy as np
 
+from .equilibrium import TOLERANCE, follow, settle
 from .integration import substeps_of
 from .masses import Masses, MassesParameters, check_forces
 from .speed import SpeedLaw
+from .standing import Standing
 from .suspended_motion import advance
 from .suspension import Suspension
 from .validation import FloatArray, require_position, require_positive, require_step
@@ -51,18 +53,19 @@ class SuspendedMasses(Masses):
         self._substep = substep
         n, count = suspension.wheels, len(suspension.inverse_mass)
         # that of the masses, in which displacement and velocity are those of the wheels; then the
-        # other coordinates and their rates, at that time as well; then all of them at the present
-        self._state = np.full(3 + 4 * n + 2 * (count - n) + 2 * count, math.nan)
-        ends = np.cumsum([3 + 4 * n, 2 * (count - n), count])
+        # other coordinates and their rates, at that time as well; then all of them at the present;
+        # what displacements of the wheels count from, and their changes of load
+        self._state = np.full(3 + 6 * n + 2 * (count - n) + 2 * count, math.nan)
+        ends = np.cumsum([3 + 4 * n, 2 * (count - n), 2 * count])
         self._wheels = self._state[3 : ends[0]].reshape(4, n)
         self._above = self._state[ends[0] : ends[1]].reshape(2, count - n)
-        self._ahead = self._state[ends[1] :].reshape(2, count)
+        self._ahead = self._state[ends[1] : ends[2]].reshape(2, count)
+        self._origin, self._load_change = self._state[ends[2] :].reshape(2, n)
 
-    def initialise(self, time: float, forces: FloatArray) -> None:
-        """Put the vehicle at rest in static equilibrium; see `Masses.initialise`."""
-        super().initialise(time, forces)
-        self._above[:] = 0.0
-        self._ahead[:] = 0.0
+    def initialise(self, time: float, forces: FloatArray, standing: Standing | None = None) -> None:
+        """Put the vehicle in static equilibrium; see `Masses.initialise`."""
+        super().initialise(time, forces, standing)
+        self._ahead[:] = np.concatenate([self._wheels[:2], self._above], axis=1)
 
     def step(self, time: float, step_size: float, forces: FloatArray, *, linear: bool) -> None:
         """Move on by one step; see `Masses.step`."""
@@ -95,12 +98,30 @@ class SuspendedMasses(Masses):
     @property
     def displacement(self) -> FloatArray:
         """Displacement of each wheel from its static position [m], downwards, shape (wheels,)."""
-        return self._ahead[0, : self.suspension.wheels].copy()
+        place: FloatArray = self._ahead[0, : self.suspension.wheels] - self._origin
+        return place
+
+    @property
+    def load_change(self) -> FloatArray:
+        """What each wheel starts with beyond its static load [N], shape (wheels,)."""
+        return self._load_change.copy()
 
     @property
     def velocity(self) -> FloatArray:
         """Velocity of each wheel [m/s], positive downwards, shape (wheels,)."""
         return self._ahead[1, : self.suspension.wheels].copy()
+
+    def _put(self, standing: Standing) -> None:
+        own, n = self.suspension, self.suspension.wheels
+        height = standing.displacement - standing.displacement.mean()
+        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused there
+            q = settle(own, follow(own, height))
+            pressed = -own.resistance(q)[:n]
+        self._above[:] = q[n:], follow(own, standing.mean_velocity)[n:]
+        self._wheels[0] = self._origin[:] = height
+        # rounding would not let loads be what they are at any height
+        given = np.abs(pressed) <= TOLERANCE * own.load
+        self._load_change[:] = np.where(given, 0.0, pressed)
 
     def _follow(self, duration: float, forces: FloatArray) -> None:
         if duration > 0.0:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from .equilibrium import follow, settle
 from .irregularity import RailIrregularity
 from .out_of_roundness import OutOfRoundness
 from .parameters import FlatParameters, VehicleParameters
@@ -14,12 +15,17 @@ from .validation import FloatArray
 from .vehicle_model import VehicleModel, check_motion
 from .wheel_profile import WheelProfileTable
 
+SWAY = 1.0
+"""Time over which bodies above the wheels smooth what they follow at the start [s]: about a period
+of car bodies, which take no part in shorter waves."""
+
 
 class SuspendedVehicle(VehicleModel):
     """A `VehicleModel` whose wheels are coupled by the bodies above them.
 
-    It starts at rest, levelled where it stands: every wheel carries its static load and every
-    suspension its share of it, whatever the height of the rail under the wheels.
+    It starts in static equilibrium at the height that the surface has under each wheel. Bogie
+    frames and car body follow the surface as that rises or falls in the mean over `SWAY`.
+    Their displacements count from static equilibrium on a level rail, the wheels' mean height.
 
     Parameters
     ----------
@@ -55,15 +61,27 @@ class SuspendedVehicle(VehicleModel):
         )
         suspension.check_substep(parameters.substep)
         self.suspension = suspension
-        # the wheels' displacements in equilibrium; coordinates behind the wheels, and their rates
+        # what the wheels' coordinates count from; coordinates behind the wheels, and their rates
         wheels, coordinates = parameters.wheels, len(suspension.inverse_mass)
         self._above = coordinates - wheels
         self._bodies = [0.0] * (wheels + 2 * self._above)
 
-    def initialise(self, time: float, rail_displacement: FloatArray | None = None) -> None:
-        """Put the vehicle at rest in static equilibrium; see `VehicleModel.initialise`."""
-        super().initialise(time, rail_displacement)
-        self._bodies = [*self._displacement, *([0.0] * (2 * self._above))]
+    def _put(self, levels: list[float], time: float) -> list[float]:
+        z = np.array(super()._put(levels, time))
+        mean = float(z.mean())
+
+        def footing(displacement: FloatArray) -> tuple[FloatArray, FloatArray]:
+            compression = np.maximum(mean + displacement - np.array(levels), 0.0)
+            root = self.parameters.hertz_coefficient * np.sqrt(compression)
+            return self.parameters.static_wheel_load - root * compression, 1.5 * root
+
+        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused there
+            q = settle(self.suspension, follow(self.suspension, z - mean), footing)
+        n = self.parameters.wheels
+        rates = follow(self.suspension, np.array(self._excitation.rates(time, SWAY)))
+        self._bodies = [*([mean] * n), *q[n:].tolist(), *rates[n:].tolist()]
+        displacement: list[float] = (mean + q[:n]).tolist()
+        return displacement
 
     @property
     def coordinates(self) -> tuple[FloatArray, FloatArray]:

@@ -11,6 +11,9 @@ from .suspension_parameters import (
 )
 from .validation import FloatArray
 
+SLACK = 1.0
+"""What an element without stiffness counts with where a stiffness must be [N/m]."""
+
 
 class Suspension:
     r"""Wheels, bogie frames and car body over one rail, coupled by springs and dampers.
@@ -42,6 +45,13 @@ class Suspension:
     bodies : BodyParameters or None
         Bogie frames and car body; None where the wheels bear nothing but their load.
 
+    Attributes
+    ----------
+    levers, bogie_levers : ndarray, shape (wheels,) and (bogies,)
+        How far each wheel is ahead of its bogie's centre, each bogie of the car body's [m].
+    is_flexible, is_suspended : bool
+        Whether there are hubs; whether there are bodies above the wheels.
+
     Raises
     ------
     ValueError
@@ -72,6 +82,10 @@ class Suspension:
             )
         self.wheels, self.bogies = n, m
         self.load = load
+        self.is_flexible, self.is_suspended = tread is not None, bodies is not None
+        centre = np.array(offsets).reshape(m, n // m).mean(axis=1)
+        self.levers: FloatArray = np.repeat(centre, n // m) - np.array(offsets)
+        self.bogie_levers: FloatArray = centre.mean() - centre
         self.inverse_mass = np.zeros(2 * n + 2 * m + 2)
         self.inverse_mass[:n] = 1.0 / (tread.mass if tread else wheel_mass)
         if tread is not None:
@@ -83,11 +97,10 @@ class Suspension:
             element = SuspensionElement(stiffness=tread.stiffness, damping=tread.damping)
             self._elements += [element] * n
         self._static = np.zeros(n + m)
-        self._suspended = bodies is not None
         if bodies is not None:
             car = car_mass(bodies, wheels=n, wheel_mass=wheel_mass, load=load)
             self._put_masses(bodies, car)
-            rows.append(self._incidence(offsets, n if tread else 0))
+            rows.append(self._incidence(n if tread else 0))
             self._elements += [bodies.primary] * n + [bodies.secondary] * m
             on_wheel = load - wheel_mass * GRAVITY
             self._static[:n] = on_wheel
@@ -123,12 +136,26 @@ class Suspension:
         force[: self.wheels] += push
         return force * self.inverse_mass
 
+    def resistance(self, q: FloatArray) -> FloatArray:
+        """Return what the elements push every coordinate back with at rest [N], [N m]."""
+        force: FloatArray = self._elongation.T @ self._deviations(q, np.zeros_like(q))
+        return force
+
+    def stiffness(self, q: FloatArray) -> FloatArray:
+        """Return how `resistance` rises with the coordinates, (coordinates, coordinates).
+
+        An element that has no stiffness there counts with `SLACK`.
+        """
+        tangent = self._law.tangent(self._elongation @ q)
+        matrix: FloatArray = self._elongation.T @ (tangent[:, None] * self._elongation)
+        return matrix
+
     def forces(self, q: FloatArray, v: FloatArray) -> FloatArray:
         """Return the whole forces of primary and secondary suspension [N], compression positive.
 
         Shape (wheels + bogies,); zero where there are none.
         """
-        if not self._suspended:
+        if not self.is_suspended:
             return self._static
         return self._static + self._deviations(q, v)[-len(self._static) :]
 
@@ -147,22 +174,20 @@ class Suspension:
         masses = [*bodies.bogie_mass, *bodies.bogie_pitch_inertia, car, bodies.car_pitch_inertia]
         self.inverse_mass[above:] = 1.0 / np.array(masses)
 
-    def _incidence(self, offsets: tuple[float, ...], borne: int) -> FloatArray:
+    def _incidence(self, borne: int) -> FloatArray:
         """Rows of both suspensions; `borne` is the first coordinate of wheels or hubs below."""
         n, m = self.wheels, self.bogies
-        share, above = n // m, 2 * n
-        centre = np.array(offsets).reshape(m, share).mean(axis=1)
-        middle = float(centre.mean())
+        above = 2 * n
         rows = np.zeros((n + m, len(self.inverse_mass)))
-        for i in range(n):
-            j = i // share
+        for i, lever in enumerate(self.levers):
+            j = i // (n // m)
             rows[i, borne + i] = -1.0
             rows[i, above + j] = 1.0
-            rows[i, above + m + j] = centre[j] - offsets[i]
-        for j in range(m):
+            rows[i, above + m + j] = lever
+        for j, lever in enumerate(self.bogie_levers):
             rows[n + j, above + j] = -1.0
             rows[n + j, above + 2 * m] = 1.0
-            rows[n + j, above + 2 * m + 1] = middle - centre[j]
+            rows[n + j, above + 2 * m + 1] = lever
         return rows
 
 
@@ -183,6 +208,12 @@ class _Law:
         met = np.maximum(compression - self._clearance, 0.0) - self._at_rest
         force: FloatArray = self._stiffness * compression + self._stop * met + damping * rate
         return force
+
+    def tangent(self, compression: FloatArray) -> FloatArray:
+        """Return the stiffnesses there [N/m], `SLACK` instead of none."""
+        met = np.where(compression > self._clearance, self._stop, 0.0)
+        tangent: FloatArray = self._stiffness + met
+        return np.where(tangent == 0.0, SLACK, tangent)
 
     def fastest(self, mobility: FloatArray) -> float:
         """Return the largest rate [1/s] of an element between bodies of these inverse masses."""

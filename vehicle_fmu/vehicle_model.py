@@ -4,14 +4,14 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
-from .contact import hertz_compression, hertz_force
+from .contact import hertz_compression
 from .excitation import Excitation
 from .integration import integrate_wheel
 from .irregularity import RailIrregularity
 from .out_of_roundness import OutOfRoundness
 from .parameters import FlatParameters, VehicleParameters
+from .rolling_wheels import RollingWheels
 from .running_surface import checked_rail_displacement, surface_over_step
 from .speed import SpeedLaw
 from .surfaces import check_out_of_roundness
@@ -19,9 +19,10 @@ from .validation import FloatArray, require_position, require_step
 from .wheel_profile import WheelProfileTable, check_flat
 
 MOST_SUBSTEPS = 1e5  # of a step; 2 s with the usual substep, the way of a whole passage
+INSTANT = 1e-6  # s, over which the rate of a surface is taken at the start
 
 
-class VehicleModel:
+class VehicleModel(RollingWheels):
     """Rigid masses on Hertzian contacts, moving along a rail of given displacement.
 
     For each wheel, with z positive downwards [Nielsen & Oscarsson (2004), section 4]:
@@ -71,8 +72,7 @@ class VehicleModel:
     ) -> None:
         check_flat(flat, flat_table, radius=parameters.wheel_radius, wheels=parameters.wheels)
         check_out_of_roundness(out_of_roundness, wheels=parameters.wheels)
-        self.parameters = parameters
-        self._excitation = Excitation(
+        excitation = Excitation(
             parameters,
             flat=flat,
             flat_table=flat_table,
@@ -80,15 +80,14 @@ class VehicleModel:
             out_of_roundness=out_of_roundness,
             speed=speed,
         )
-        self._start = self._time = math.nan
-        self._displacement: list[float] = []
-        self._velocity: list[float] = []
-        self._rail: list[float] = []
-        self._compression: list[float] = []
+        super().__init__(parameters, excitation)
         self._bodies: list[float] = []  # what a `SuspendedVehicle` has besides its wheels
 
     def initialise(self, time: float, rail_displacement: FloatArray | None = None) -> None:
-        """Put every wheel at rest in static equilibrium at its start position.
+        """Put every wheel in static equilibrium at its start position.
+
+        It moves as the surface under it rises or falls there: at rest where this is smooth. The
+        displacement of the rail counts as one that stays.
 
         To be called again whenever the rail displacement changes before the first step.
 
@@ -110,13 +109,12 @@ class VehicleModel:
         rail = checked_rail_displacement(
             np.zeros(wheels) if rail_displacement is None else rail_displacement, wheels
         )
-        delta = hertz_compression(
-            self.parameters.static_wheel_load, self.parameters.hertz_coefficient
-        )
         drops = self._excitation.drops(time, time)
-        self._start = time
         levels = [u + drop for u, drop in zip(rail, drops, strict=True)]
-        self._accept(time, [w + delta for w in levels], [0.0] * wheels, rail, drops)
+        displacement = self._put(levels, time)
+        rates = self._excitation.rates(time, INSTANT)
+        self._start = time
+        self._accept(time, displacement, rates, rail, drops)
 
     def step(
         self, time: float, step_size: float, rail_displacement: FloatArray, *, linear: bool
@@ -152,6 +150,14 @@ class VehicleModel:
         ]
         z, v = self._move(levels, step_size, rail)
         self._accept(time + step_size, z, v, rail, [row[-1] for row in drops])
+
+    def _put(self, levels: list[float], time: float) -> list[float]:
+        """Return where the wheels rest on surfaces of these levels [m], at the start time [s]."""
+        del time  # matters to bodies above the wheels
+        delta = hertz_compression(
+            self.parameters.static_wheel_load, self.parameters.hertz_coefficient
+        )
+        return [level + delta for level in levels]
 
     def _move(
         self, levels: list[list[float]], step_size: float, rail: list[float]
@@ -210,60 +216,6 @@ class VehicleModel:
         self._bodies = values[count:]
         self._accept(time, wheels[:n], wheels[n : 2 * n], wheels[2 * n :], drops)
 
-    @property
-    def position(self) -> FloatArray:
-        """Position of each wheel along the rail [m], shape (wheels,)."""
-        self._require_started()
-        return np.array(self._excitation.positions(self._start, self._time))
-
-    @property
-    def displacement(self) -> FloatArray:
-        """Displacement z of each wheel [m], positive downwards, shape (wheels,)."""
-        self._require_started()
-        return np.array(self._displacement)
-
-    @property
-    def velocity(self) -> FloatArray:
-        """Velocity z' of each wheel [m/s], positive downwards, shape (wheels,)."""
-        self._require_started()
-        return np.array(self._velocity)
-
-    @property
-    def gap(self) -> FloatArray:
-        """Gap -delta between each wheel and the rail [m], positive apart, shape (wheels,)."""
-        self._require_started()
-        return -np.array(self._compression)
-
-    @property
-    def contact_force(self) -> FloatArray:
-        """Force F in each contact [N], positive in compression, never negative, shape (wheels,)."""
-        self._require_started()
-        coefficient = self.parameters.hertz_coefficient
-        return np.array([hertz_force(delta, coefficient) for delta in self._compression])
-
-    @property
-    def in_contact(self) -> npt.NDArray[np.bool_]:
-        """Whether each wheel presses on the rail, shape (wheels,)."""
-        self._require_started()
-        return np.array([delta > 0.0 for delta in self._compression])
-
-    def _accept(
-        self,
-        time: float,
-        displacement: list[float],
-        velocity: list[float],
-        rail: list[float],
-        drops: list[float],
-    ) -> None:
-        """Take over a state and derive from it, always in the same way, what the outputs need."""
-        self._time = time
-        self._displacement = displacement
-        self._velocity = velocity
-        self._rail = rail
-        self._compression = [
-            z - (u + drop) for z, u, drop in zip(displacement, rail, drops, strict=True)
-        ]
-
     def _check_step(self, time: float, step_size: float) -> None:
         """Refuse a step that does not join the last one or has no proper length."""
         self._require_started()
@@ -276,10 +228,6 @@ class VehicleModel:
             )
         end = time + step_size
         require_position(self._excitation.positions(self._start, end)[0], end)
-
-    def _require_started(self) -> None:
-        if not self._displacement:
-            raise RuntimeError("the vehicle has no state yet: call initialise first")
 
 
 def check_motion(

@@ -39,7 +39,7 @@ ON_TRACK = (
 TRACK = (*ON_TRACK, "track.c", "track_derivative.c")
 MOTION = ("curve.c", "motion.c", "table_file.c")
 SURFACES = ("curve.c", "flat.c", "surfaces.c", "table_file.c", "tread.c")
-SUSPENSION = ("suspension.c", "suspension_setup.c")
+SUSPENSION = ("dense.c", "equilibrium.c", "suspension.c", "suspension_setup.c")
 VEHICLE = (
     *dict.fromkeys((*MOTION, *SURFACES)),
     *SUSPENSION,
@@ -54,11 +54,19 @@ TRACK_CONTACT = (
     *dict.fromkeys((*ON_TRACK, *SURFACES)),
     "contact_memory.c",
     "contact_solution.c",
+    "contact_start.c",
     "contact_step.c",
     "continuation.c",
     "track_contact.c",
 )
-MASSES = (*MOTION, *SUSPENSION, "dense.c", "masses.c", "masses_setup.c", "suspended_masses.c")
+MASSES = (
+    *MOTION,
+    *SUSPENSION,
+    "masses.c",
+    "masses_setup.c",
+    "masses_start.c",
+    "suspended_masses.c",
+)
 MODELS = {
     name: (*FMI, *COMMON, *own)
     for name, own in (

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vehicle_fmu.masses import Masses, MassesParameters
+from vehicle_fmu.standing import Standing
 from vehicle_fmu.suspended_masses import SuspendedMasses
 
 from .excitation import speed_law, wheel_offsets
@@ -44,8 +45,13 @@ class MassesSlave(ModelSlave):
         )
 
     def start_model(self, model: Masses, time: float, inputs: Mapping[str, FloatArray]) -> None:
-        """At rest in static equilibrium."""
-        model.initialise(time, inputs["contact_force"])
+        """Static equilibrium on wheels that stand where the track says."""
+        standing = Standing(
+            displacement=inputs["static_displacement"],
+            velocity=inputs["static_velocity"],
+            mean_velocity=inputs["mean_velocity"],
+        )
+        model.initialise(time, inputs["contact_force"], standing)
 
     def step_model(
         self,

@@ -7,9 +7,23 @@ from dataclasses import replace
 from vehicle_fmu.parameters import VehicleParameters
 
 from .model_slave import LINEAR_INPUTS
-from .suspension_variables import body_outputs, suspension_parameters
+from .suspension_variables import body_outputs, loads_are_given, suspension_parameters
 from .variables import Variable
-from .vehicle_variables import offset_parameters, speed_parameters, vehicle_parameters
+from .vehicle_variables import (
+    initial_inputs,
+    offset_parameters,
+    speed_parameters,
+    vehicle_parameters,
+)
+
+HEIGHT = "Displacement of wheel {} in static equilibrium, from any level, downwards positive"
+FOLLOWING = "Velocity with which {} follow the surface at the start, downwards positive"
+STANDING = (
+    ("static_displacement", "m", 1e-3, HEIGHT),
+    ("static_velocity", "m/s", 1e-1, FOLLOWING.replace("{} follow", "wheel {} follows")),
+    ("mean_velocity", "m/s", 1e-1, FOLLOWING.replace("{}", "bodies above wheel {}")),
+)
+"""Name, unit, nominal value and description of what a track tells about the start."""
 
 INPUT_TIME = replace(
     LINEAR_INPUTS,
@@ -21,20 +35,21 @@ INPUT_TIME = replace(
 
 def declare_masses(wheels: int, *, bogies: int = 1) -> list[Variable]:
     """Variables of an FMU of the given number of wheels and bogies."""
+    heights = tuple(f"wheel[{i + 1}].static_displacement" for i in range(wheels))
     return [
         *speed_parameters(),
         *vehicle_parameters("wheel_mass", "static_wheel_load", "initial_position", "substep"),
         *offset_parameters(wheels),
         *suspension_parameters(bogies),
         *_inputs(wheels),
-        *_outputs(wheels),
-        *body_outputs(wheels, bogies),
+        *_outputs(wheels, loaded=() if loads_are_given(wheels, bogies) else heights),
+        *body_outputs(wheels, bogies, known=heights),
         INPUT_TIME,
     ]
 
 
 def _inputs(wheels: int) -> list[Variable]:
-    return [
+    forces = [
         Variable(
             name=f"wheel[{i + 1}].contact_force",
             causality="input",
@@ -48,14 +63,18 @@ def _inputs(wheels: int) -> list[Variable]:
         )
         for i in range(wheels)
     ]
+    return [*forces, *initial_inputs(STANDING, wheels)]
 
 
-def _outputs(wheels: int) -> list[Variable]:
+def _outputs(wheels: int, *, loaded: tuple[str, ...]) -> list[Variable]:
     kinds = (
-        ("position", "m", 1.0, "Track position of wheel {}"),
-        ("displacement", "m", 1e-3,
+        ("position", "m", 1.0, (), "Track position of wheel {}"),
+        ("displacement", "m", 1e-3, (),
          "Displacement of wheel {} from its static equilibrium, downwards positive"),
-        ("velocity", "m/s", 1e-1, "Velocity of wheel {}, downwards positive"),
+        ("velocity", "m/s", 1e-1, ("wheel[{}].static_velocity",),
+         "Velocity of wheel {}, downwards positive"),
+        ("load_change", "N", 1e5, loaded,
+         "Force beyond its static load with which wheel {} presses on the rail at the start"),
     )  # fmt: skip
     return [
         Variable(
@@ -66,7 +85,8 @@ def _outputs(wheels: int) -> list[Variable]:
             unit=unit,
             nominal=nominal,
             description=description.format(i + 1),
+            initial_dependencies=tuple(known.format(i + 1) for known in dependencies),
         )
-        for name, unit, nominal, description in kinds
+        for name, unit, nominal, dependencies, description in kinds
         for i in range(wheels)
     ]

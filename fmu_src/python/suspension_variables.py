@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from vehicle_fmu.suspension_parameters import PRIMARY, SECONDARY, BodyParameters
 
 from .variables import Variable, own_parameters
@@ -83,26 +85,35 @@ def _tread() -> list[Variable]:
     ]
 
 
-def body_outputs(wheels: int, bogies: int) -> list[Variable]:
-    """Motion of the bodies and forces of the suspension; 0 where there are none."""
-    rest = "from static equilibrium, downwards positive"
+def loads_are_given(wheels: int, bogies: int) -> bool:
+    """Whether every wheel starts with its static load at any height: two a bogie, two bogies."""
+    return wheels <= 2 * bogies and bogies <= 2
+
+
+def body_outputs(wheels: int, bogies: int, *, known: tuple[str, ...] = ()) -> list[Variable]:
+    """Motion of the bodies and forces of the suspension; 0 where there are none.
+
+    During the initialisation they depend on the inputs that are `known`.
+    """
+    rest = "from static equilibrium on a level rail, downwards positive"
     bodies = (
         ("displacement", "m", 1e-3, f"Displacement of {{}} {rest}"),
-        ("pitch", "rad", 1e-3, "Pitch of {} from static equilibrium, positive nose down"),
+        ("pitch", "rad", 1e-3, f"Pitch of {{}} {rest.partition(',')[0]}, positive nose down"),
         ("acceleration", "m/s2", 1.0, "Acceleration of {}, downwards positive"),
     )
+    outputs = partial(_output, known=known)
     frames = [
-        _output(f"bogie[{j + 1}].{key}", f"bogie_{key}", j, unit, nominal, text.format(what))
+        outputs(f"bogie[{j + 1}].{key}", f"bogie_{key}", j, unit, nominal, text.format(what))
         for key, unit, nominal, text in bodies
         for j in range(bogies)
         for what in (f"the frame of bogie {j + 1}",)
     ]
     car = [
-        _output(f"car.{key}", f"car_{key}", 0, unit, nominal, text.format("the car body"))
+        outputs(f"car.{key}", f"car_{key}", 0, unit, nominal, text.format("the car body"))
         for key, unit, nominal, text in bodies
     ]
     forces = [
-        _output(
+        outputs(
             f"{name}[{k + 1}].force",
             f"{name}_force",
             k,
@@ -117,7 +128,14 @@ def body_outputs(wheels: int, bogies: int) -> list[Variable]:
 
 
 def _output(  # noqa: PLR0917 - the columns of a table
-    name: str, group: str, index: int, unit: str, nominal: float, description: str
+    name: str,
+    group: str,
+    index: int,
+    unit: str,
+    nominal: float,
+    description: str,
+    *,
+    known: tuple[str, ...],
 ) -> Variable:
     return Variable(
         name=name,
@@ -127,4 +145,5 @@ def _output(  # noqa: PLR0917 - the columns of a table
         unit=unit,
         nominal=nominal,
         description=description,
+        initial_dependencies=known,
     )

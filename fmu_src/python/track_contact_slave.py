@@ -25,8 +25,10 @@ OF_THE_CONTACT = {
     "contact_force_ahead",
     "gap",
     "in_contact",
+    "mean_velocity",
     "rail_displacement",
     "static_displacement",
+    "static_velocity",
 }
 
 
@@ -73,7 +75,12 @@ class TrackContactSlave(ModelSlave):
     ) -> None:
         """Nonlinear static equilibrium under the static wheel loads."""
         del time
-        model.start(inputs["position"], inputs["displacement"])
+        model.start(
+            inputs["position"],
+            inputs["displacement"],
+            load_change=inputs["load_change"],
+            velocity=inputs["velocity"],
+        )
 
     def step_model(
         self,

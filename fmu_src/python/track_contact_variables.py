@@ -13,9 +13,17 @@ from .variables import Variable
 from .vehicle_variables import (
     WheelOutput,
     excitation_parameters,
+    initial_inputs,
     vehicle_parameters,
     wheel_outputs,
 )
+
+LOAD_CHANGE = "Force beyond static_wheel_load with which wheel {} presses on the rail at the start"
+STARTING = (
+    ("load_change", "N", 1e5, LOAD_CHANGE),
+    ("velocity", "m/s", 1e-1, "Velocity of wheel {}, downwards positive"),
+)
+"""Name, unit, nominal value and description of what a vehicle tells about its start."""
 
 INPUT_TIME = replace(
     LINEAR_INPUTS,
@@ -38,14 +46,16 @@ def declare_track_contact(
         Number of wheels and of bending moment gauges.
     """
     positions = tuple(f"wheel[{i}].position" for i in range(1, wheels + 1))
+    loads = tuple(f"wheel[{i}].load_change" for i in range(1, wheels + 1))
     return [
         *track_parameters(structure, gauges),
         *vehicle_parameters("static_wheel_load", "wheel_radius", "hertz_coefficient"),
         *excitation_parameters(wheels),
         *position_inputs(structure, wheels),
         *_displacement_inputs(wheels),
-        *_contact_outputs(wheels, positions),
-        *track_outputs(structure, wheels, gauges, known=positions),
+        *initial_inputs(STARTING, wheels),
+        *_contact_outputs(wheels, positions, loads),
+        *track_outputs(structure, wheels, gauges, known=(*positions, *loads)),
         INPUT_TIME,
     ]
 
@@ -67,20 +77,28 @@ def _displacement_inputs(wheels: int) -> list[Variable]:
     ]
 
 
-def _contact_outputs(wheels: int, positions: tuple[str, ...]) -> list[Variable]:
+def _contact_outputs(
+    wheels: int, positions: tuple[str, ...], loads: tuple[str, ...]
+) -> list[Variable]:
+    own = ("wheel[{}].load_change",)
     kinds: tuple[WheelOutput, ...] = (
-        ("contact_force", "N", 0.0, 0.0, 1e5, (),
+        ("contact_force", "N", 0.0, 0.0, 1e5, own,
          "Contact force of wheel {} on the rail, compression positive"),
-        ("contact_force_ahead", "N", 0.0, 0.0, 1e5, (),
+        ("contact_force_ahead", "N", 0.0, 0.0, 1e5, own,
          ("Contact force of wheel {}, compression positive, continued to the middle of a next step "
           "like the last one: for vehicles that hold their inputs over a step")),
-        ("gap", "m", 0.0, None, 1e-4, (),
+        ("gap", "m", 0.0, None, 1e-4, own,
          "Gap between wheel {} and rail, positive when apart, negative when compressed"),
-        ("in_contact", "", False, None, None, (),
+        ("in_contact", "", False, None, None, own,
          "Whether wheel {} touches the rail"),
         ("static_displacement", "m", 0.0, None, 1e-3,
-         (*positions, "wheel[{}].displacement"),
+         (*positions, *loads, "wheel[{}].displacement"),
          ("What the displacement of wheel {} counts from, downwards positive: its displacement in "
           "static equilibrium less the one given there")),
+        ("static_velocity", "m/s", 0.0, None, 1e-1, ("wheel[{}].position",),
+         "Velocity with which wheel {} follows the surface at the start, downwards positive"),
+        ("mean_velocity", "m/s", 0.0, None, 1e-1, ("wheel[{}].position",),
+         ("Velocity with which the surface sinks under wheel {} in the mean over a second, half of "
+          "it before the start, downwards positive")),
     )  # fmt: skip
     return wheel_outputs(kinds, wheels)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from vehicle_fmu.parameters import FlatParameters, VehicleParameters
 
-from .suspension_variables import body_outputs, suspension_parameters
+from .suspension_variables import body_outputs, loads_are_given, suspension_parameters
 from .variables import Variable, own_parameters
 
 WheelOutput = tuple[str, str, float, float | None, float | None, tuple[str, ...], str]
@@ -47,9 +47,14 @@ def declare_vehicle(wheels: int, *, bogies: int = 1) -> list[Variable]:
         *suspension_parameters(bogies),
         *excitation_parameters(wheels),
         *_inputs(wheels),
-        *_outputs(wheels),
-        *body_outputs(wheels, bogies),
+        *_outputs(wheels, bogies),
+        *body_outputs(wheels, bogies, known=rails(wheels)),
     ]
+
+
+def rails(wheels: int) -> tuple[str, ...]:
+    """Inputs that say how high every wheel stands."""
+    return tuple(f"wheel[{i + 1}].rail_displacement" for i in range(wheels))
 
 
 def offset_parameters(wheels: int) -> list[Variable]:
@@ -136,23 +141,43 @@ def _inputs(wheels: int) -> list[Variable]:
     ]
 
 
-def _outputs(wheels: int) -> list[Variable]:
-    on_rail = ("wheel[{}].rail_displacement",)
+def _outputs(wheels: int, bogies: int) -> list[Variable]:
+    fixed = loads_are_given(wheels, bogies)
+    on_rail = ("wheel[{}].rail_displacement",) if fixed else rails(wheels)
+    loaded = () if fixed else rails(wheels)
     kinds: tuple[WheelOutput, ...] = (
         ("position", "m", 0.0, None, 1.0, (),
          "Track position of wheel {}"),
-        ("contact_force", "N", 0.0, 0.0, 1e5, (),
+        ("contact_force", "N", 0.0, 0.0, 1e5, loaded,
          "Contact force of wheel {} on the rail, compression positive"),
         ("displacement", "m", 0.0, None, 1e-3, on_rail,
          "Displacement of wheel {}, downwards positive"),
         ("velocity", "m/s", 0.0, None, 1e-1, (),
          "Velocity of wheel {}, downwards positive"),
-        ("gap", "m", 0.0, None, 1e-4, (),
+        ("gap", "m", 0.0, None, 1e-4, loaded,
          "Gap between wheel {} and rail, positive when apart, negative when compressed"),
-        ("in_contact", "", False, None, None, (),
+        ("in_contact", "", False, None, None, loaded,
          "Whether wheel {} touches the rail"),
     )  # fmt: skip
     return wheel_outputs(kinds, wheels)
+
+
+def initial_inputs(kinds: tuple[tuple[str, str, float, str], ...], wheels: int) -> list[Variable]:
+    """Inputs of every wheel that matter during the initialisation only, kind by kind."""
+    return [
+        Variable(
+            name=f"wheel[{i + 1}].{name}",
+            causality="input",
+            group=name,
+            index=i,
+            unit=unit,
+            nominal=nominal,
+            start=0.0,
+            description=f"{description.format(i + 1)}; used during the initialisation only",
+        )
+        for name, unit, nominal, description in kinds
+        for i in range(wheels)
+    ]
 
 
 def wheel_outputs(kinds: tuple[WheelOutput, ...], wheels: int) -> list[Variable]:

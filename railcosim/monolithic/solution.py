@@ -30,6 +30,7 @@ from .modal_track import ModalTrack
 from .observation import Observer
 from .rail_places import RailPlaces
 from .scenario_vehicle import vehicle_of
+from .standing import stand
 from .static_start import static_start
 from .system import ContactForm, CoupledSystem
 
@@ -151,8 +152,8 @@ def make_system(
 ) -> tuple[CoupledSystem, NDArray[np.float64]]:
     """Return the system of a scenario and its state at t = 0.
 
-    The track starts in the static equilibrium of its full model, moving along; the vehicle starts
-    level, without vertical velocity, every wheel under its static load.
+    The track starts in the static equilibrium of its full model, moving along, and the vehicle in
+    its own on that; see `stand`.
 
     Parameters
     ----------
@@ -179,24 +180,30 @@ def make_system(
         full.wheels(places.elements, weights).output[:, : matrices.numbering.size]
         for weights in (places.shapes(0.0), places.slopes(0.0))
     )
-    displacement, velocity = static_start(
-        matrices,
-        ballast,
-        load=load * shapes.sum(axis=0),
-        load_rate=load * course.speed(0.0) * slopes.sum(axis=0),
+    contact, vehicle = (
+        HertzLaw(coefficient=scenario.vehicle.hertz_coefficient),
+        vehicle_of(scenario),
     )
-    contact = HertzLaw(coefficient=scenario.vehicle.hertz_coefficient)
+
+    def deflected(loads: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        rate = course.speed(0.0) * (loads @ slopes)
+        return static_start(matrices, ballast, load=loads @ shapes, load_rate=rate)
+
+    standing = stand(
+        vehicle, contact, course, load=load, sag=lambda loads: shapes @ deflected(loads)[0]
+    )
     system = CoupledSystem(
         track=full if model == "full" else _modal(held.keys, parameters, matrices),
-        vehicle=vehicle_of(scenario),
+        vehicle=vehicle,
         places=places,
         contact=contact,
         ballast=ballast,
         form=contact_form,
         static_load=load,
-        rest=shapes @ displacement + course.drops(0.0) + contact.compression(load),
+        rest=standing.rest,
     )
-    return system, system.at_rest(system.track.begin(displacement, velocity))
+    own = system.track.begin(*deflected(standing.loads))
+    return system, system.begin(own, standing.place, standing.rate)
 
 
 def _modal(keys: Track, parameters: TrackParameters, matrices: TrackMatrices) -> ModalTrack:

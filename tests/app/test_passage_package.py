@@ -91,7 +91,7 @@ def test_the_package_of_the_papers_case(fmus, tmp_path):
         assert isinstance(opened.system, System)
         ends = [(item.source, item.target) for item in opened.system.connections]
         assert opened.unused == ()
-    assert ends == [(item.source, item.target) for item in connections(2)]
+    assert ends == [(item.source, item.target) for item in connections(Scenario())]
     assert description.start_time == 0.0
     # 6.5 m at 40 km/h
     assert description.stop_time == pytest.approx(0.585, rel=1e-15)

@@ -146,7 +146,7 @@ def test_two_builds_live_in_one_process(open_fmu, small_fmus, tmp_path):
         else data
         for name, data in contents.items()
     }
-    contact = f"resources/{package}x/vehicle_fmu/vehicle_model.py"
+    contact = f"resources/{package}x/vehicle_fmu/rolling_wheels.py"
     changed[contact] = changed[contact].replace(
         b"\n    @property\n    def position",
         (

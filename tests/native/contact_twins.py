@@ -17,8 +17,15 @@ from .twins import (
     put_dynamic,
 )
 
-CONTACT_GROUPS = ("contact_force", "contact_force_ahead", "gap", "static_displacement")
-MASSES_GROUPS = ("position", "displacement", "velocity")
+CONTACT_GROUPS = (
+    "contact_force",
+    "contact_force_ahead",
+    "gap",
+    "static_displacement",
+    "static_velocity",
+    "mean_velocity",
+)
+MASSES_GROUPS = ("position", "displacement", "velocity", "load_change")
 MODE_PAIRS = 36
 RATES = {"force_rate": "force_change", "increment_rate": "force_change"}
 
@@ -90,7 +97,8 @@ class ContactPair:
                    "modal": 2 * filled(self.modes),
                    "load": 2 * filled(self.modes), "offset": 1, "compression": wheels,
                    "ahead": wheels,
-                   "origin": wheels, "history": 6 * wheels, "ages": 2, "passed": 1}  # fmt: skip
+                   "origin": wheels, "velocity": wheels, "mean_velocity": wheels,
+                   "history": 6 * wheels, "ages": 2, "passed": 1}  # fmt: skip
         own = self._to_native(self.numpy.state)
         places = np.cumsum(list(lengths.values()))[:-1]
         expected, found = np.split(own, places), np.split(self.native.state[-len(own) :], places)
@@ -107,7 +115,7 @@ class ContactPair:
     @property
     def own_size(self):
         """Numbers of a state behind those of the track."""
-        return 9 * self.wheels + 3
+        return 11 * self.wheels + 3
 
     def _to_native(self, flat):
         track, own = np.split(flat, [len(flat) - self.own_size])
@@ -130,11 +138,15 @@ class MassesPair:
         self.slave = slave = Slave(instance_name="twin")
         self.numpy = slave.make_model(slave._parameters | dict(values))
 
-    def start(self, time, forces):
+    def start(self, time, forces, standing=None):
         self.native.enter(time)
         self.native.set_group("wheel[#].contact_force", forces)
+        if standing is not None:
+            self.native.set_group("wheel[#].static_displacement", standing.displacement)
+            self.native.set_group("wheel[#].static_velocity", standing.velocity)
+            self.native.set_group("wheel[#].mean_velocity", standing.mean_velocity)
         self.native.exit()
-        self.numpy.initialise(time, forces)
+        self.numpy.initialise(time, forces, standing)
 
     def step(self, step_size, forces, *, linear):
         self.native.set_group("wheel[#].contact_force", forces)
@@ -148,7 +160,7 @@ class MassesPair:
 
     @property
     def dynamic_size(self):
-        return 3 + 2 * self.wheels + 4 * coordinates(self)
+        return 3 + 4 * self.wheels + 4 * coordinates(self)
 
     @property
     def dynamic(self):

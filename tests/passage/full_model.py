@@ -163,6 +163,8 @@ class FullModel:
         z = self.contact_columns(start + offsets).T @ x + (LOAD / HERTZ) ** (2 / 3)
         z += [drop(start), second_drop(start - axle_base)]
         zv, za = np.zeros(2), np.zeros(2)
+        for i, (profile, at) in enumerate([(drop, start), (second_drop, start - axle_base)]):
+            zv[i] = speed * (profile(at + 1e-6) - profile(at - 1e-6)) / 2e-6
         force, increment = np.full(2, LOAD), self.ballast(self.beds.T @ x, 0.0)[0]
         wheel_response = step**2 / (4.0 * MASS)
         history = []

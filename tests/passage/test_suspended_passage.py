@@ -80,3 +80,23 @@ def test_a_flexible_wheelset_softens_the_strike(masses):
     peak, rigid, softer = (float(p["contact_force"].max()) for p in (stiff, masses, soft))
     assert peak == pytest.approx(rigid, rel=0.02)
     assert softer < 0.98 * rigid
+
+
+def test_both_sides_of_the_contacts_start_three_axles_in_the_same_equilibrium(tmp_path):
+    """Loads and heights depend on each other through track and springs; the master settles both."""
+    x = np.arange(0.0, 32.0, 0.05)
+    rail = tmp_path / "rail.csv"
+    rows = (f"{a!r},{3e-3 * np.sin(2.0 * a)!s}\n" for a in x.tolist())
+    rail.write_text("position,drop\n" + "".join(rows), encoding="ascii")
+    keys = ("vehicle.wheels=3", "vehicle.axle_base=1.7", "flat.shape=none", SUSPENDED)
+    starts = [
+        native(*keys, f"vehicle.rail_irregularity={rail}", "run.departure=0.01", contact=contact)
+        for contact in ("vehicle", "track")
+    ]
+    ours, theirs = (start["contact_force"][0].to_numpy() for start in starts)
+    assert np.abs(ours / STATIC_LOAD - 1.0).min() > 5e-3
+    assert ours.sum() == pytest.approx(3.0 * STATIC_LOAD, rel=1e-9)
+    assert theirs == pytest.approx(ours, rel=1e-9)
+    rates = [start["wheel_velocity"][0].to_numpy() for start in starts]
+    assert np.abs(rates[0]).max() > 0.02
+    assert rates[1] == pytest.approx(rates[0], rel=1e-6)

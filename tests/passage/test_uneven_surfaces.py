@@ -66,7 +66,7 @@ def test_contact_forces_are_those_of_the_full_model(scenario, contact):
     forces = {1: expected.force, 2: expected.second_force}
     for wheel, force in forces.items():
         of_wheel = passage.sel(wheel=wheel)
-        # they start at rest in both, so the whole way is compared
+        # they start with the velocity of their treads in both, so the whole way is compared
         position = expected.position - 1.8 * (wheel - 1)
         ours = np.interp(position, of_wheel["wheel_position"], of_wheel["contact_force"])
         assert np.abs(ours - force).max() < 0.01 * STATIC_LOAD

@@ -47,6 +47,41 @@ def contact_track(short, *, wheels=1, surface=None, speed=0.0):
     return ContactTrack(model, law=Hertz(), surface=surface or Level(), static_load=STATIC_LOAD)
 
 
+class Slope:
+    """Down by one in a hundred, with waves of 0.1 m."""
+
+    def drops(self, positions):
+        return 0.01 * positions + 1e-5 * np.sin(20.0 * np.pi * positions)
+
+
+def test_a_vehicle_may_ask_for_loads_and_come_with_a_velocity(short):
+    track = contact_track(short, wheels=2, surface=Slope(), speed=SPEED)
+    positions, change = np.array([3.0, 2.0]), np.array([3e4, -2e4])
+    velocity = 0.01 * SPEED
+    track.start(positions, np.zeros(2), load_change=change, velocity=np.full(2, velocity))
+    assert track.contact_force == pytest.approx(STATIC_LOAD + change, rel=1e-15)
+    assert track.mean_velocity == pytest.approx([velocity] * 2, abs=2e-5)
+    steep = velocity + 20.0 * np.pi * 1e-5 * SPEED
+    assert track.static_velocity == pytest.approx([steep] * 2, rel=1e-6)
+    # known at the start of a step only, the displacement goes on with its velocity
+    step = 1e-4
+    track.step(step, positions, np.zeros(2), linear=False)
+    moved = positions + SPEED * step
+    free = velocity * step + track.static_displacement - Slope().drops(moved)
+    assert -track.gap == pytest.approx(free - track.rail_displacement, abs=1e-15)
+
+
+def test_a_wheel_that_would_start_off_the_rail_is_refused(short):
+    track = contact_track(short)
+    for told, message in (
+        ({"load_change": -1.1 * STATIC_LOAD}, "wheel 1 starts with a load of -11772 N"),
+        ({"load_change": np.nan}, "load nan N and velocity 0 m/s of wheel 1 must be finite"),
+        ({"velocity": np.inf}, "and velocity inf m/s of wheel 1 must be finite"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            track.start(np.array([MIDDLE]), np.zeros(1), **told)
+
+
 def gap_of(track, displacements):
     """On a level surface, from what is visible outside."""
     return track.rail_displacement - (displacements + track.static_displacement)

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from vehicle_fmu.bodies import observe_bodies
-from vehicle_fmu.irregularity import RailIrregularity
 from vehicle_fmu.masses import Masses, MassesParameters
 from vehicle_fmu.parameters import FlatParameters, VehicleParameters
 from vehicle_fmu.speed import ConstantSpeed
@@ -16,10 +15,6 @@ from .suspended import LOAD, OFFSETS, TREAD, WHEEL, coach
 
 SPEED = ConstantSpeed(speed=25.0)
 SOFT = {"primary": (0.0, 0.0), "secondary": (0.0, 0.0)}
-WAVES = RailIrregularity(
-    position=np.linspace(-30.0, 60.0, 901),
-    drop=1e-3 * np.sin(np.linspace(-30.0, 60.0, 901) * 2.0 * np.pi / 3.3),
-)
 WHEELS = {"offsets": OFFSETS, "wheel_mass": WHEEL, "static_wheel_load": LOAD}
 
 
@@ -89,16 +84,6 @@ def test_equilibrium_stays_where_the_rail_is_smooth():
     seen = observe_bodies(model)
     assert abs(seen["car_displacement"][0]) < 1e-12
     assert seen["primary_force"] == pytest.approx([LOAD - WHEEL * 9.81] * 4, rel=1e-9)
-
-
-def test_it_starts_in_equilibrium_wherever_the_irregular_rail_lies():
-    model = vehicle(coach(), flat=FlatParameters(shape="none"), irregularity=WAVES)
-    assert np.ptp(model.displacement) > 2e-4
-    assert model.contact_force == pytest.approx([LOAD] * 4, rel=1e-12)
-    seen = observe_bodies(model)
-    for name, values in seen.items():
-        if "force" not in name:  # moved by contact forces that are those at rest but for rounding
-            assert np.abs(values).max() < 1e-9, name
 
 
 def test_the_bodies_follow_long_waves_and_not_short_ones():

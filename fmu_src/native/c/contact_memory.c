@@ -6,17 +6,19 @@
 
 size_t rc_count_contact(const rc_basis *basis)
 {
-    return rc_count_state(basis) + 9 * basis->wheels + 3;
+    return rc_count_state(basis) + 11 * basis->wheels + 3;
 }
 
 rc_contact_state rc_view_contact(const rc_basis *basis, double *dynamic)
 {
     const size_t wheels = basis->wheels;
-    double *own = dynamic + rc_count_state(basis), *history = own + 3 * wheels;
+    double *own = dynamic + rc_count_state(basis), *history = own + 5 * wheels;
     double *ages = history + 6 * wheels;
     return (rc_contact_state){.compression = own,
                               .ahead = own + wheels,
                               .origin = own + 2 * wheels,
+                              .velocity = own + 3 * wheels,
+                              .mean_velocity = own + 4 * wheels,
                               .history = {.count = 2 * wheels,
                                           .newest = history,
                                           .second = history + 2 * wheels,

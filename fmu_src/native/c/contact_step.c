@@ -12,12 +12,13 @@ double rc_count_contact_parts(double step)
     return fmax(1.0, ceil(step / RC_LONGEST_PART - 1e-9));
 }
 
-void rc_begin_contact(rc_track_contact *own, const rc_contact_state *at, const double *given)
+void rc_begin_contact(rc_track_contact *own, const rc_contact_state *at, const double *given,
+                      const double *velocity)
 {
     const size_t wheels = own->track.basis.wheels;
     for (size_t i = 0; i < wheels; ++i) {
         own->rate[i] = own->track.initial_speed;
-        own->rate[wheels + i] = 0.0;
+        own->rate[wheels + i] = velocity[i];
     }
     rc_begin_history(&at->history, given, own->rate, RC_LONGEST_PART);
 }
@@ -52,12 +53,22 @@ static int is_newest(const rc_history *history, const double *given)
     return 1;
 }
 
+/* From other values than were given at the start, with the velocity of that. */
+static void begin_again(rc_track_contact *own, const rc_contact_state *at, const double *given)
+{
+    const size_t wheels = own->track.basis.wheels;
+    const double *newest = at->history.newest + wheels, *second = at->history.second + wheels;
+    for (size_t i = 0; i < wheels; ++i)
+        own->level[i] = (newest[i] - second[i]) / at->history.ages[0];
+    rc_begin_contact(own, at, given, own->level);
+}
+
 void rc_take_contact(rc_track_contact *own, const rc_contact_state *at, const double *given)
 {
     if (*at->passed > 0.0)
         rc_remember(&at->history, given, *at->passed);
     else if (!is_newest(&at->history, given))
-        rc_begin_contact(own, at, given);
+        begin_again(own, at, given);
     *at->passed = 0.0;
 }
 

@@ -12,6 +12,13 @@ double rc_drop(const rc_vehicle *own, size_t wheel, double leading)
     return rc_surface_drop(&own->surfaces, wheel, leading - own->offsets[wheel]);
 }
 
+double rc_rate(const rc_vehicle *own, size_t wheel, double start, double span)
+{
+    const double before = rc_leading_position(own, start, start - 0.5 * span);
+    const double after = rc_leading_position(own, start, start + 0.5 * span);
+    return (rc_drop(own, wheel, after) - rc_drop(own, wheel, before)) / span;
+}
+
 double rc_level(const rc_vehicle *own, size_t wheel, const rc_way *over, size_t k, size_t halves)
 {
     const int last = k == halves;

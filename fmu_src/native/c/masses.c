@@ -17,35 +17,16 @@ static const rc_group_kind KINDS[] = {
     [OFFSET] = {"wheel[#].offset", RC_REAL, RC_PARAMETER, RC_FOLLOWERS},
     RC_SUSPENSION_PARAMETERS(SUSPENSION),
     [CONTACT_FORCE] = {"wheel[#].contact_force", RC_REAL, RC_INPUT, RC_WHEELS},
+    [STATIC_DISPLACEMENT] = {"wheel[#].static_displacement", RC_REAL, RC_INPUT, RC_WHEELS},
+    [STATIC_VELOCITY] = {"wheel[#].static_velocity", RC_REAL, RC_INPUT, RC_WHEELS},
+    [MEAN_VELOCITY] = {"wheel[#].mean_velocity", RC_REAL, RC_INPUT, RC_WHEELS},
     [POSITION] = {"wheel[#].position", RC_REAL, RC_OUTPUT, RC_WHEELS},
     [DISPLACEMENT] = {"wheel[#].displacement", RC_REAL, RC_OUTPUT, RC_WHEELS},
     [VELOCITY] = {"wheel[#].velocity", RC_REAL, RC_OUTPUT, RC_WHEELS},
+    [LOAD_CHANGE] = {"wheel[#].load_change", RC_REAL, RC_OUTPUT, RC_WHEELS},
     RC_BODY_OUTPUTS(BODIES),
     [LINEAR_INPUTS] = {"linear_inputs", RC_BOOLEAN, RC_PARAMETER, RC_ONE},
 };
-
-static rc_status check_forces(rc_model *model, rc_status otherwise)
-{
-    const double *forces = rc_values(model, CONTACT_FORCE);
-    for (size_t i = 0; i < model->dimensions[RC_WHEELS]; ++i)
-        if (!isfinite(forces[i]))
-            return rc_fail(model, otherwise, "the contact force of wheel %zu is %g N; it must be a "
-                                             "finite number", i + 1, forces[i]);
-    return RC_OK;
-}
-
-static rc_status start(rc_model *model)
-{
-    const rc_masses *own = model->own;
-    const rc_masses_state at = rc_masses_view(own, model->dynamic);
-    const double *forces = rc_values(model, CONTACT_FORCE);
-    if (check_forces(model, RC_ERROR) != RC_OK)
-        return RC_ERROR;
-    memset(model->dynamic, 0, model->dynamic_count * sizeof(double));
-    *at.start = *at.time = model->head->time;
-    memcpy(at.force, forces, own->wheels * sizeof(double));
-    return RC_OK;
-}
 
 typedef struct {
     double displacement, velocity;
@@ -136,7 +117,7 @@ static rc_masses_state copy(const rc_model *model)
 static rc_status step_masses(rc_model *model, double step, int linear)
 {
     rc_masses *own = model->own;
-    if (check_forces(model, RC_DISCARD) != RC_OK)
+    if (rc_check_masses(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
     memcpy(own->before, model->dynamic, model->dynamic_count * sizeof(double));
     const rc_masses_state at = copy(model);
@@ -159,7 +140,7 @@ static rc_status step_masses(rc_model *model, double step, int linear)
 static rc_status jump(rc_model *model)
 {
     const rc_masses *own = model->own;
-    if (check_forces(model, RC_DISCARD) != RC_OK)
+    if (rc_check_masses(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
     const rc_masses_state at = copy(model);
     if (own->suspension.coupled)
@@ -184,9 +165,13 @@ static void read_outputs(rc_model *model, size_t group, double *values)
             values[i] = own->initial_position + way - own->offsets[i];
         return;
     }
+    if (group == LOAD_CHANGE) {
+        memcpy(values, at.load_change, own->wheels * sizeof(double));
+        return;
+    }
     for (size_t i = 0; i < own->wheels; ++i) {
         const motion now = own->suspension.coupled
-                               ? (motion){at.ahead[i], at.ahead_rate[i]}
+                               ? (motion){at.ahead[i] - at.origin[i], at.ahead_rate[i]}
                                : moved(own, &at, i, *at.passed, at.slope[i]);
         values[i] = group == DISPLACEMENT ? now.displacement : now.velocity;
     }
@@ -218,7 +203,7 @@ static const rc_class MASSES = {
     .own_size = sizeof(rc_masses),
     .open = rc_open_masses,
     .prepare = rc_prepare_masses,
-    .start = start,
+    .start = rc_start_masses,
     .step = step_masses,
     .jump = jump,
     .read = read_outputs,

@@ -10,7 +10,7 @@ rc_status rc_open_masses(rc_model *model)
         return RC_ERROR;
     const size_t wheels = own->wheels = model->dimensions[RC_WHEELS];
     const size_t coordinates = own->suspension.coordinates;
-    const size_t count = model->dynamic_count = 3 + 2 * wheels + 4 * coordinates;
+    const size_t count = model->dynamic_count = 3 + 4 * wheels + 4 * coordinates;
     own->before = calloc(2 * count + 2 * coordinates + 3 * wheels, sizeof(double));
     if (own->before == NULL)
         return rc_fail(model, RC_ERROR, "there is not enough memory for the masses");

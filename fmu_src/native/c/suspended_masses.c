@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "equilibrium.h"
 #include "masses.h"
 
 #define DIFFERENCE 1e4 /* N; the motion is linear in the forces but where a stop is met */
@@ -70,6 +71,30 @@ static void look_ahead(const rc_masses *own, const rc_masses_state *at)
     move_on(own, at, *at->passed, at->slope);
     memcpy(at->ahead, own->q, bytes);
     memcpy(at->ahead_rate, own->v, bytes);
+}
+
+int rc_settle_masses(const rc_masses *own, const rc_masses_state *at, const double *displacement,
+                     const double *velocity)
+{
+    const size_t n = own->wheels;
+    const rc_settling settling = {.suspension = &own->suspension, .load = own->load};
+    double mean = 0.0;
+    for (size_t i = 0; i < n; ++i)
+        mean += displacement[i];
+    mean /= (double)n;
+    for (size_t i = 0; i < n; ++i)
+        own->forces[i] = displacement[i] - mean;
+    rc_follow(&own->suspension, own->forces, own->q);
+    rc_follow(&own->suspension, velocity, own->v);
+    if (!rc_settle(&settling, own->q))
+        return 0;
+    memcpy(own->v, at->velocity, n * sizeof(double));
+    put_known(own, at, own->q, own->v);
+    memcpy(at->ahead, own->q, own->suspension.coordinates * sizeof(double));
+    memcpy(at->ahead_rate, own->v, own->suspension.coordinates * sizeof(double));
+    memcpy(at->origin, own->q, n * sizeof(double));
+    rc_press_at_rest(&own->suspension, own->q, own->load, at->load_change);
+    return 1;
 }
 
 void rc_move_suspended(const rc_masses *own, const rc_masses_state *at, const double *forces,

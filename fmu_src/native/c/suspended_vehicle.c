@@ -1,8 +1,10 @@
 /* The suspended vehicle on the rail; twin of vehicle_fmu/suspended_vehicle.py. */
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
 
 #include "contact.h"
+#include "equilibrium.h"
 #include "vehicle.h"
 
 typedef struct {
@@ -49,6 +51,45 @@ void rc_take_coordinates(const rc_vehicle *own, const double *values, double *q,
     }
     memcpy(q + n, origin + n, above * sizeof(double));
     memcpy(v + n, origin + n + above, above * sizeof(double));
+}
+
+typedef struct {
+    const rc_vehicle *own;
+    double mean;
+} standing;
+
+static rc_pressed tread_on(void *of, size_t wheel, double displacement)
+{
+    const standing *on = of;
+    const rc_wheel *kind = &on->own->wheel;
+    const double delta = fmax(on->mean + displacement - on->own->level[wheel], 0.0);
+    const double root = kind->coefficient * sqrt(delta);
+    return (rc_pressed){kind->load - root * delta, 1.5 * root};
+}
+
+int rc_settle_vehicle(const rc_vehicle *own, const rc_vehicle_state *at)
+{
+    const size_t n = own->wheels, above = (own->suspension.coordinates - n) * sizeof(double);
+    standing on = {own, 0.0};
+    for (size_t i = 0; i < n; ++i)
+        on.mean += at->displacement[i];
+    on.mean /= (double)n;
+    for (size_t i = 0; i < n; ++i) {
+        own->differences[i] = at->displacement[i] - on.mean;
+        own->rail[i] = rc_rate(own, i, *at->start, RC_SWAY);
+    }
+    const rc_settling settling = {&own->suspension, own->wheel.load, tread_on, &on};
+    rc_follow(&own->suspension, own->differences, own->q);
+    rc_follow(&own->suspension, own->rail, own->v);
+    if (!rc_settle(&settling, own->q))
+        return 0;
+    for (size_t i = 0; i < n; ++i) {
+        at->origin[i] = on.mean;
+        at->displacement[i] = on.mean + own->q[i];
+    }
+    memcpy(at->above, own->q + n, above);
+    memcpy(at->above_rate, own->v + n, above);
+    return 1;
 }
 
 void rc_roll_suspended(const rc_vehicle *own, double *from, double *to, const double *rail,

@@ -5,8 +5,7 @@
 
 #define SUBSTEP_ROUNDING 1e-9 /* n longest substeps are n substeps, whatever the rounding */
 
-/* Of an element beyond its static force. */
-static double force_of(const rc_element *element, double compression, double rate)
+double rc_element_force(const rc_element *element, double compression, double rate)
 {
     const double damping = rate < 0.0 ? element->extending : element->compressing;
     const double at_rest = fmax(-element->clearance, 0.0);
@@ -35,12 +34,12 @@ static double over_bogie(const rc_suspension *own, const double *q, size_t bogie
 
 static double primary(const rc_suspension *own, const double *q, const double *v, size_t wheel)
 {
-    return force_of(&own->primary, over_wheel(own, q, wheel), over_wheel(own, v, wheel));
+    return rc_element_force(&own->primary, over_wheel(own, q, wheel), over_wheel(own, v, wheel));
 }
 
 static double secondary(const rc_suspension *own, const double *q, const double *v, size_t bogie)
 {
-    return force_of(&own->secondary, over_bogie(own, q, bogie), over_bogie(own, v, bogie));
+    return rc_element_force(&own->secondary, over_bogie(own, q, bogie), over_bogie(own, v, bogie));
 }
 
 static void add_bodies(const rc_suspension *own, const double *q, const double *v, double *force)
@@ -69,7 +68,7 @@ static void accelerate(const rc_suspension *own, const double *q, const double *
     memset(acceleration, 0, own->coordinates * sizeof(double));
     if (own->flexible)
         for (size_t i = 0; i < n; ++i) {
-            const double f = force_of(&own->tread, q[n + i] - q[i], v[n + i] - v[i]);
+            const double f = rc_element_force(&own->tread, q[n + i] - q[i], v[n + i] - v[i]);
             acceleration[i] += f;
             acceleration[n + i] -= f;
         }

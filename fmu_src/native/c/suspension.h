@@ -70,7 +70,9 @@ typedef struct {
     double *inverse_mass; /* of every coordinate; 0 where it rests */
     double *lever;        /* of every wheel ahead of its bogie's centre */
     double *bogie_lever;  /* of every bogie ahead of the car body's centre */
-    double *work;         /* of a substep */
+    double *work;         /* of a substep, or a sweep towards equilibrium */
+    double *matrix;       /* of that sweep: stiffness, by rows of a stride */
+    size_t *pivot;
 } rc_suspension;
 
 /* Coordinates of so many wheels and bogies. */
@@ -87,6 +89,9 @@ void rc_free_suspension(rc_suspension *own);
  * are those of all wheels. A substep that does not resolve every element is refused. */
 rc_status rc_make_suspension(rc_model *model, rc_suspension *own, size_t first, double wheel_mass,
                              double load, const double *offsets, double substep);
+
+/* Of an element beyond its static force [N]. */
+double rc_element_force(const rc_element *element, double compression, double rate);
 
 /* The largest rate of an element between its bodies [1/s]. */
 double rc_fastest(const rc_suspension *own);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "dense.h"
 #include "suspension.h"
 
 #define GRAVITY 9.81       /* m/s2 */
@@ -16,7 +17,9 @@ rc_status rc_open_suspension(rc_model *model, rc_suspension *own)
     own->coordinates = rc_coordinates(own->wheels, own->bogies);
     own->inverse_mass = calloc((1 + WORK_ROWS) * own->coordinates + own->wheels + 2 * own->bogies,
                                sizeof(double));
-    if (own->inverse_mass == NULL)
+    own->matrix = calloc(own->coordinates * rc_stride(own->coordinates), sizeof(double));
+    own->pivot = calloc(own->coordinates, sizeof(size_t));
+    if (own->inverse_mass == NULL || own->matrix == NULL || own->pivot == NULL)
         return rc_fail(model, RC_ERROR, "there is not enough memory for a suspension");
     own->work = own->inverse_mass + own->coordinates;
     own->lever = own->work + WORK_ROWS * own->coordinates;
@@ -28,6 +31,8 @@ rc_status rc_open_suspension(rc_model *model, rc_suspension *own)
 void rc_free_suspension(rc_suspension *own)
 {
     free(own->inverse_mass);
+    free(own->matrix);
+    free(own->pivot);
 }
 
 static rc_status require_not_negative(rc_model *model, size_t group, const char *unit,

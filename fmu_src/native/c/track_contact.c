@@ -8,22 +8,6 @@
 #include "dense.h"
 #include "track_setup.h"
 
-enum {
-    STATIC_WHEEL_LOAD = RC_TRACK_PARAMETER_COUNT,
-    WHEEL_RADIUS,
-    HERTZ_COEFFICIENT,
-    SURFACE,
-    POSITION = SURFACE + RC_SURFACE_PARAMETER_COUNT,
-    DISPLACEMENT,
-    CONTACT_FORCE,
-    CONTACT_FORCE_AHEAD,
-    GAP,
-    IN_CONTACT,
-    STATIC_DISPLACEMENT,
-    TRACK_OUTPUT,
-    LINEAR_INPUTS = TRACK_OUTPUT + RC_TRACK_OUTPUT_COUNT
-};
-
 static const rc_group_kind KINDS[] = {
     RC_TRACK_PARAMETERS,
     [STATIC_WHEEL_LOAD] = {"static_wheel_load", RC_REAL, RC_PARAMETER, RC_ONE},
@@ -32,11 +16,15 @@ static const rc_group_kind KINDS[] = {
     RC_SURFACE_PARAMETERS(SURFACE),
     [POSITION] = {"wheel[#].position", RC_REAL, RC_INPUT, RC_WHEELS},
     [DISPLACEMENT] = {"wheel[#].displacement", RC_REAL, RC_INPUT, RC_WHEELS},
+    [LOAD_CHANGE] = {"wheel[#].load_change", RC_REAL, RC_INPUT, RC_WHEELS},
+    [INITIAL_VELOCITY] = {"wheel[#].velocity", RC_REAL, RC_INPUT, RC_WHEELS},
     [CONTACT_FORCE] = {"wheel[#].contact_force", RC_REAL, RC_OUTPUT, RC_WHEELS},
     [CONTACT_FORCE_AHEAD] = {"wheel[#].contact_force_ahead", RC_REAL, RC_OUTPUT, RC_WHEELS},
     [GAP] = {"wheel[#].gap", RC_REAL, RC_OUTPUT, RC_WHEELS},
     [IN_CONTACT] = {"wheel[#].in_contact", RC_BOOLEAN, RC_OUTPUT, RC_WHEELS},
     [STATIC_DISPLACEMENT] = {"wheel[#].static_displacement", RC_REAL, RC_OUTPUT, RC_WHEELS},
+    [STATIC_VELOCITY] = {"wheel[#].static_velocity", RC_REAL, RC_OUTPUT, RC_WHEELS},
+    [MEAN_VELOCITY] = {"wheel[#].mean_velocity", RC_REAL, RC_OUTPUT, RC_WHEELS},
     RC_TRACK_OUTPUTS(TRACK_OUTPUT),
     [LINEAR_INPUTS] = {"linear_inputs", RC_BOOLEAN, RC_PARAMETER, RC_ONE},
 };
@@ -86,8 +74,7 @@ static const double *given_inputs(const rc_model *model)
     return rc_values(model, POSITION);
 }
 
-/* Refuses wheels beyond the track and displacements that are no numbers. */
-static rc_status check_inputs(rc_model *model, rc_status otherwise)
+rc_status rc_check_contact(rc_model *model, rc_status otherwise)
 {
     rc_track *track = &((rc_track_contact *)model->own)->track;
     const double *displacements = rc_values(model, DISPLACEMENT);
@@ -96,31 +83,15 @@ static rc_status check_inputs(rc_model *model, rc_status otherwise)
             return rc_fail(model, otherwise, "track: displacement %g m of wheel %zu must be a "
                                              "finite number; look for the cause in the vehicle",
                            displacements[i], i + 1);
-    return rc_check_wheels(model, track, given_inputs(model), otherwise);
-}
-
-static rc_status start(rc_model *model)
-{
-    rc_track_contact *own = model->own;
-    rc_track *track = &own->track;
-    const rc_contact_state at = rc_view_contact(&track->basis, model->dynamic);
-    rc_track_state state = rc_view_state(&track->basis, model->dynamic);
-    const double *positions = given_inputs(model), *displacements = rc_values(model, DISPLACEMENT);
-    if (check_inputs(model, RC_ERROR) != RC_OK)
-        return RC_ERROR;
-    for (size_t i = 0; i < track->basis.wheels; ++i)
-        own->force[i] = own->static_load;
-    if (rc_start_track(model, track, &state, positions, own->force) != RC_OK)
-        return RC_ERROR;
     for (size_t i = 0; i < track->basis.wheels; ++i) {
-        at.compression[i] = rc_hertz_compression(own->static_load, own->coefficient);
-        at.origin[i] = state.displacement[i] + rc_surface_drop(&own->surfaces, i, positions[i]);
-        at.origin[i] += at.compression[i] - displacements[i];
-        at.ahead[i] = own->static_load;
+        const double change = rc_values(model, LOAD_CHANGE)[i];
+        const double velocity = rc_values(model, INITIAL_VELOCITY)[i];
+        if (!(isfinite(change) && isfinite(velocity)))
+            return rc_fail(model, otherwise,
+                           "track: load change %g N and velocity %g m/s of wheel %zu must be finite "
+                           "numbers; look for the cause in the vehicle", change, velocity, i + 1);
     }
-    *at.passed = 0.0;
-    rc_begin_contact(own, &at, positions);
-    return RC_OK;
+    return rc_check_wheels(model, track, given_inputs(model), otherwise);
 }
 
 static rc_status step_contact(rc_model *model, double step, int linear)
@@ -128,7 +99,7 @@ static rc_status step_contact(rc_model *model, double step, int linear)
     rc_track_contact *own = model->own;
     const size_t bytes = model->dynamic_count * sizeof(double);
     const rc_contact_state at = rc_view_contact(&own->track.basis, model->dynamic);
-    if (check_inputs(model, RC_DISCARD) != RC_OK)
+    if (rc_check_contact(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
     if (step / RC_LONGEST_PART > MOST_PARTS)
         return rc_fail(model, RC_DISCARD,
@@ -155,7 +126,7 @@ static rc_status jump(rc_model *model)
 {
     rc_track_contact *own = model->own;
     const rc_contact_state at = rc_view_contact(&own->track.basis, model->dynamic);
-    if (check_inputs(model, RC_DISCARD) != RC_OK)
+    if (rc_check_contact(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
     rc_take_contact(own, &at, given_inputs(model));
     return RC_OK;
@@ -182,6 +153,12 @@ static void read_values(rc_track_contact *own, double *dynamic, size_t group, do
             break;
         case IN_CONTACT:
             values[i] = at.compression[i] > 0.0 ? 1.0 : 0.0;
+            break;
+        case STATIC_VELOCITY:
+            values[i] = at.velocity[i];
+            break;
+        case MEAN_VELOCITY:
+            values[i] = at.mean_velocity[i];
             break;
         default: /* STATIC_DISPLACEMENT */
             values[i] = at.origin[i];
@@ -233,7 +210,7 @@ static const rc_class TRACK_CONTACT = {
     .own_size = sizeof(rc_track_contact),
     .open = open_contact,
     .prepare = prepare,
-    .start = start,
+    .start = rc_start_contact,
     .step = step_contact,
     .jump = jump,
     .read = read_outputs,

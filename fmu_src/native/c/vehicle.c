@@ -5,8 +5,10 @@
 #include <string.h>
 
 #include "contact.h"
+#include "dense.h"
 
 #define MOST_SUBSTEPS 1e5 /* of a step; 2 s with the usual substep, the way of a whole passage */
+#define INSTANT 1e-6      /* s, over which the rate of a surface is taken at the start */
 
 static const rc_group_kind KINDS[] = {
     [SPEED] = {"speed", RC_REAL, RC_PARAMETER, RC_ONE},
@@ -53,11 +55,16 @@ static rc_status start_vehicle(rc_model *model)
     memset(model->dynamic, 0, model->dynamic_count * sizeof(double));
     *at.start = *at.time = time;
     for (size_t i = 0; i < own->wheels; ++i) {
-        at.displacement[i] = rail[i] + rc_drop(own, i, leading) + delta;
+        own->level[i] = rail[i] + rc_drop(own, i, leading);
+        at.displacement[i] = own->level[i] + delta;
+        at.velocity[i] = rc_rate(own, i, time, INSTANT);
         at.rail[i] = rail[i];
-        if (own->suspension.coupled)
-            at.origin[i] = at.displacement[i];
     }
+    if (own->suspension.coupled && !rc_settle_vehicle(own, &at))
+        return rc_fail(model, RC_ERROR,
+                       "the vehicle finds no static equilibrium on wheels displaced by up to %g m "
+                       "at the start; begin on a more even rail",
+                       rc_largest(own->q, own->wheels));
     return RC_OK;
 }
 

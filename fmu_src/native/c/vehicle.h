@@ -40,7 +40,7 @@ typedef struct {
 } rc_vehicle;
 
 /* Where the dynamic values are: the way of the state through time, then one for every wheel; behind
- * them, for the suspended vehicle, the wheels' displacements in equilibrium, and the coordinates
+ * them, for the suspended vehicle, what the wheels' coordinates count from, and the coordinates
  * behind those of the wheels, and their rates. */
 typedef struct {
     double *start, *time, *displacement, *velocity, *rail, *origin, *above, *above_rate;
@@ -70,6 +70,9 @@ double rc_leading_position(const rc_vehicle *own, double start, double time);
 /* What tread and railhead lie lower under a wheel (from 0) when wheel 1 is at `leading` [m]. */
 double rc_drop(const rc_vehicle *own, size_t wheel, double leading);
 
+/* How fast that grows at the start time: the mean over a span, half of it before and half after. */
+double rc_rate(const rc_vehicle *own, size_t wheel, double start, double span);
+
 /* A step of one wheel. */
 typedef struct {
     double start, time, step; /* of the simulation, of the step; its length [s] */
@@ -86,6 +89,10 @@ rc_wheel_motion rc_roll_wheel(const rc_vehicle *own, size_t wheel, const rc_way 
 
 /* Coordinates of the suspended vehicle and their rates, into q and v. */
 void rc_take_coordinates(const rc_vehicle *own, const double *values, double *q, double *v);
+
+/* Puts the suspended vehicle, whose wheels are on their levels under static load, in equilibrium;
+ * 0 if it finds none. */
+int rc_settle_vehicle(const rc_vehicle *own, const rc_vehicle_state *at);
 
 /* Moves the suspended vehicle from one block of dynamic values to another, but for its time. */
 void rc_roll_suspended(const rc_vehicle *own, double *from, double *to, const double *rail,
