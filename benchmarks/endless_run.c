@@ -16,6 +16,12 @@ static void set(rc_model *model, const char *name, double value)
         fail(rc_message(model));
 }
 
+static void name_file(rc_model *model, const char *name, const char *path)
+{
+    if (rc_set_text(model, rc_group_at(model, find(model, name))->first, path) != RC_OK)
+        fail(rc_message(model));
+}
+
 static long memory(void)
 {
     long all = 0, resident = 0;
@@ -90,21 +96,21 @@ int main(int count, char **arguments)
 {
     char message[RC_MESSAGE_SIZE];
     size_t size;
-    if (count != 6)
-        fail("give the resource, a rail irregularity, whether endless, speed [m/s], distance [m]");
+    if (count != 7)
+        fail("give the resource, a rail irregularity, a table of supports or nothing, whether "
+             "endless, speed [m/s], distance [m]");
     void *data = read_resource(arguments[1], &size);
     run of = {.model = rc_create(rc_library_class(), data, size, message), .least = LOAD};
     if (of.model == NULL)
         fail(message);
     of.x = 12.7;
-    of.speed = atof(arguments[4]);
+    of.speed = atof(arguments[5]);
     of.position = find(of.model, "wheel[#].position");
     of.displacement = find(of.model, "wheel[#].displacement");
     of.force = find(of.model, "wheel[#].contact_force");
-    const uint32_t table = rc_group_at(of.model, find(of.model, "rail_irregularity"))->first;
-    if (rc_set_text(of.model, table, arguments[2]) != RC_OK)
-        fail(rc_message(of.model));
-    set(of.model, "endless", atof(arguments[3]));
+    name_file(of.model, "rail_irregularity", arguments[2]);
+    name_file(of.model, "supports", arguments[3]);
+    set(of.model, "endless", atof(arguments[4]));
     set(of.model, "initial_speed", of.speed);
     set(of.model, "flat.depth", 0.5e-3);
     set(of.model, "flat.periodic", 1.0);
@@ -116,7 +122,7 @@ int main(int count, char **arguments)
         fail(rc_message(of.model));
     rc_get_group(of.model, of.force, of.f);
     long early = 0;
-    printf("update %.0f\n", drive(&of, (size_t)(atof(arguments[5]) / STRETCH), &early));
+    printf("update %.0f\n", drive(&of, (size_t)(atof(arguments[6]) / STRETCH), &early));
     printf("memory_early %ld\nmemory_late %ld\n", early, memory());
     printf("least_force %.0f\nlargest_force %.0f\nposition %.3f\n", of.least, of.most, of.x);
     rc_destroy(of.model);

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import TYPE_CHECKING, TypeVar, cast
 
+from fmu_src.python.supports import make_factors
 from fmu_src.python.tables import read_table
 from fmu_src.python.track_laws import make_laws
 from vehicle_fmu.irregularity import RailIrregularity
@@ -12,7 +13,7 @@ from vehicle_fmu.parameters import FlatParameters
 from vehicle_fmu.wheel_profile import WheelProfileTable, check_flat
 
 from .errors import InputError
-from .support_values import support_values
+from .support_values import support_properties
 from .track_data import track_parameters
 
 if TYPE_CHECKING:
@@ -108,9 +109,9 @@ def check_laws(scenario: Scenario) -> None:
     """
     track = scenario.track
     values = {item.name: getattr(track, item.name) for item in fields(track)}
-    supports = support_values(scenario)
+    supports = support_properties(scenario)
     try:
-        make_laws(track_parameters(track), values | supports)
+        make_laws(track_parameters(track), values, make_factors(supports))
     except ValueError as error:
         raise InputError(str(error)) from error
 

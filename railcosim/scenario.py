@@ -55,7 +55,8 @@ class Scenario:
     master: Master = field(default_factory=Master)
 
     def __post_init__(self) -> None:
-        self.variation.check_supports(self.track.bays - 1)
+        if not self.track.endless:
+            self.variation.check_supports(self.track.bays - 1)
         check_bodies(self.vehicle, self.suspension)
         self._check_flat()
         self._check_uneven_surfaces()
@@ -81,6 +82,15 @@ class Scenario:
     def distance(self) -> float:
         """Distance that every wheel rolls [m]."""
         return self.run.approach + self.run.departure
+
+    @property
+    def supports(self) -> int:
+        """Number of supports from the first one on that the track has or the passage reaches."""
+        track = self.track
+        if not track.endless:
+            return track.bays - 1
+        end = max(self.start_position, 0.0) + self.distance
+        return math.ceil(end / track.sleeper_spacing) + track.bays  # the window is never so far
 
     @property
     def struck_bay(self) -> int:

@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 Value: TypeAlias = float | int | bool | str
 """What a parameter of an FMU may be."""
 
-NO_PARAMETERS = ("bays", "elements_per_bay", "supports")
-"""Keys of the track that its FMU is built of, or that are parameters of its supports."""
+NO_PARAMETERS = ("bays", "elements_per_bay", "supports", "supports_repeat")
+"""Keys of the track that its FMU is built of, or that `_of_supports` sets."""
 
 
 def track_constants(scenario: Scenario) -> dict[str, Value]:
@@ -53,21 +53,36 @@ def track_values(
 ) -> dict[str, Value]:
     """Return the parameters of the track FMU, with those of the contacts if it has them.
 
-    Those that are `fixed` in the FMU are left out. The files of uneven surfaces are those that the
-    scenario names, or where it has to be composed, `surfaces`.
+    Those that are `fixed` in the FMU are left out. The files of uneven surfaces and of endless
+    supports are those that the scenario names, or where they have to be composed, `surfaces`.
     """
     own = {name: value for name, value in _of_track(scenario).items() if name not in fixed}
     gauges = {
         f"gauge[{k}].position": position
         for k, position in enumerate(scenario.gauge_positions, start=1)
     }
-    values = {**own, **gauges, **support_values(scenario), "initial_speed": initial_speed(law)}
+    files = surfaces or files_of(scenario)
+    supports = _of_supports(scenario, files)
+    values = {**own, **gauges, **supports, "initial_speed": initial_speed(law)}
     if contact == "vehicle":
         return values
-    values |= _contact_values(scenario, surfaces or files_of(scenario))
+    values |= _contact_values(scenario, files)
     if scenario.master.algorithm == "gauss_seidel":
         values["linear_inputs"] = True  # the vehicle has stepped when the track does
     return values
+
+
+def _of_supports(scenario: Scenario, files: SurfaceFiles) -> dict[str, Value]:
+    """Return what supports have of their own: one by one, or as the table of an endless track."""
+    if not scenario.track.endless:
+        return dict(support_values(scenario))
+    if not files.supports:
+        return {}
+    is_whole = files.supports != scenario.track.supports
+    return {
+        "supports": files.supports,
+        "supports_repeat": scenario.track.supports_repeat and not is_whole,
+    }
 
 
 def vehicle_values(

@@ -6,12 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .support_table import PROPERTIES, read_support_table
+from fmu_src.python.supports import PROPERTIES, make_factors, read_columns
+
+from .errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from .scenario import Scenario
+    from .track_section import Track
     from .variation import Variation
 
 PAD_STREAM, BALLAST_STREAM = 0, 1
@@ -19,7 +22,7 @@ PAD_STREAM, BALLAST_STREAM = 0, 1
 
 
 def support_values(scenario: Scenario) -> dict[str, float | bool]:
-    """Return the parameters ``support[i].*`` of the track FMU that are not nominal.
+    """Return the parameters ``support[i].*`` of an ordinary track's FMU that are not nominal.
 
     Raises
     ------
@@ -30,25 +33,23 @@ def support_values(scenario: Scenario) -> dict[str, float | bool]:
         f"support[{i + 1}].{name}": bool(value) if name == "fastened" else float(value)
         for name, values in support_properties(scenario).items()
         for i, value in enumerate(values)
-        if value != _nominal(name)
+        if value != PROPERTIES[name]
     }
 
 
 def support_properties(scenario: Scenario) -> dict[str, NDArray[np.float64]]:
     """Return what all supports have, by the names of `PROPERTIES`, shape (supports,) each.
 
+    Of an endless track those that the passage reaches, from the first one of the track on: a
+    support has the same properties however many there are.
+
     Raises
     ------
     InputError
         For a table that cannot be used.
     """
-    track, variation = scenario.track, scenario.variation
-    supports = track.bays - 1
-    values = {name: np.full(supports, _nominal(name)) for name in PROPERTIES}
-    if track.supports:
-        for support, own in read_support_table(track.supports, track).items():
-            for name, value in own.items():
-                values[name][support] = value
+    track, variation, supports = scenario.track, scenario.variation, scenario.supports
+    values = _table_values(track, supports)
     positions = np.array([track.sleeper_spacing * (i + 1) for i in range(supports)])
     factors = {
         "pad": random_factors(variation, positions, variation.pad_stiffness_deviation, PAD_STREAM),
@@ -60,11 +61,24 @@ def support_properties(scenario: Scenario) -> dict[str, NDArray[np.float64]]:
     for part, factor in factors.items():
         values[f"{part}_stiffness_factor"] *= factor
         values[f"{part}_damping_factor"] *= factor
-    values["gap"][variation.listed("hanging_sleepers")] = variation.hanging_gap
-    values["fastened"][variation.listed("missing_fastenings")] = 0.0
+    values["gap"][variation.listed("hanging_sleepers", supports)] = variation.hanging_gap
+    values["fastened"][variation.listed("missing_fastenings", supports)] = 0.0
     for name in ("pad_stiffness_factor", "pad_damping_factor"):
-        values[name][variation.listed("missing_pads")] = 0.0
+        values[name][variation.listed("missing_pads", supports)] = 0.0
     return values
+
+
+def _table_values(track: Track, supports: int) -> dict[str, NDArray[np.float64]]:
+    """What the table of a track says of so many supports."""
+    if not track.supports:
+        return {name: np.full(supports, nominal) for name, nominal in PROPERTIES.items()}
+    most = None if track.endless else supports
+    try:
+        columns = read_columns(track.supports, spacing=track.sleeper_spacing, supports=most)
+        factors = make_factors(columns, repeat=track.supports_repeat).window(0, supports)
+    except ValueError as error:
+        raise InputError(str(error)) from error
+    return {name: getattr(factors, name.removesuffix("_factor")) for name in PROPERTIES}
 
 
 def random_factors(
@@ -99,7 +113,3 @@ def transition_factors(variation: Variation, positions: NDArray[np.float64]) -> 
     length = variation.transition_length
     share = np.clip(beyond / length, 0.0, 1.0) if length > 0.0 else (beyond > 0.0).astype(float)
     return np.asarray(variation.transition_factor**share)
-
-
-def _nominal(name: str) -> float:
-    return 0.0 if name == "gap" else 1.0

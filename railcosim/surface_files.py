@@ -1,4 +1,4 @@
-"""The files from which the FMUs read what rail and wheels are uneven by."""
+"""The files from which the FMUs read what rail, wheels and endless supports have of their own."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from .errors import InputError
+from .variation import Variation
 
 if TYPE_CHECKING:
     from .scenario import Scenario
@@ -21,10 +22,14 @@ class SurfaceFiles:
         Empty for a smooth rail.
     treads : tuple of str
         One a wheel, empty for a round one.
+    supports : str
+        Of an endless track; empty where its supports are alike. An ordinary track has parameters
+        for every one of them.
     """
 
     rail: str
     treads: tuple[str, ...]
+    supports: str = ""
 
 
 def files_of(scenario: Scenario) -> SurfaceFiles:
@@ -33,13 +38,20 @@ def files_of(scenario: Scenario) -> SurfaceFiles:
     Raises
     ------
     InputError
-        For a scenario whose surfaces have to be composed first.
+        For a scenario whose surfaces or supports have to be composed first.
     """
     if scenario.irregularity or scenario.wheel_defect:
         raise InputError(
             "the tables [[irregularity]] and [[wheel_defect]] are composed for a run and are no "
             "part of a package: write them with railcosim irregularity and name their files"
         )
+    if scenario.track.endless and scenario.variation != Variation():
+        raise InputError(
+            "[variation] on an endless track is written for a run and is no part of a package: "
+            "name a file of supports as track.supports"
+        )
     return SurfaceFiles(
-        rail=scenario.vehicle.rail_irregularity, treads=("",) * scenario.vehicle.wheels
+        rail=scenario.vehicle.rail_irregularity,
+        treads=("",) * scenario.vehicle.wheels,
+        supports=scenario.track.supports if scenario.track.endless else "",
     )

@@ -1,4 +1,4 @@
-"""Tables that the FMUs read of composed rails and treads, in a folder for the time of a run."""
+"""Tables that the FMUs read of what is composed, in a folder for the time of a run."""
 
 from __future__ import annotations
 
@@ -13,9 +13,11 @@ from vehicle_fmu.out_of_roundness import OutOfRoundness
 
 from .errors import RunError
 from .output import replacing
+from .support_values import support_properties
 from .surface_files import SurfaceFiles
 from .uneven_rail import compose_rail
 from .uneven_wheels import compose_treads
+from .variation import Variation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -74,13 +76,18 @@ def written(
     """
     named = scenario.vehicle.rail_irregularity
     rail = None if named else surfaces.rail
-    if rail is None and not surfaces.treads:
-        yield SurfaceFiles(rail=named, treads=("",) * scenario.vehicle.wheels)
+    differing = scenario.track.endless and scenario.variation != Variation()
+    supports = scenario.track.supports if scenario.track.endless else ""
+    if rail is None and not surfaces.treads and not differing:
+        treads = ("",) * scenario.vehicle.wheels
+        yield SurfaceFiles(rail=named, treads=treads, supports=supports)
         return
     with _folder(replay) as folder:
         files = write_tables(folder, replace(surfaces, rail=rail))
         treads = files.treads or ("",) * scenario.vehicle.wheels
-        yield SurfaceFiles(rail=named or files.rail, treads=treads)
+        if differing:
+            supports = write_supports(folder / "supports.csv", scenario)
+        yield SurfaceFiles(rail=named or files.rail, treads=treads, supports=supports)
 
 
 def write_tables(folder: Path, surfaces: UnevenSurfaces) -> SurfaceFiles:
@@ -100,6 +107,23 @@ def write_tables(folder: Path, surfaces: UnevenSurfaces) -> SurfaceFiles:
     )
 
 
+def write_supports(path: Path, scenario: Scenario) -> str:
+    """Write what the supports have that a passage reaches; return the path.
+
+    Raises
+    ------
+    RunError
+        Where it cannot be written.
+    """
+    columns = support_properties(scenario)
+    rows = zip(*(values.tolist() for values in columns.values()), strict=True)
+    with replacing(path) as temporary, temporary.open("w", encoding="ascii") as file:
+        file.write(f"number,{','.join(columns)}\n")
+        for number, row in enumerate(rows, start=1):
+            file.write(f"{number},{','.join(map(repr, row))}\n")
+    return str(path)
+
+
 @contextmanager
 def _folder(replay: Path | None) -> Iterator[Path]:
     """Make the folder of the tables and remove it again, unless a replay needs it."""
@@ -112,7 +136,7 @@ def _folder(replay: Path | None) -> Iterator[Path]:
         folder.mkdir(exist_ok=True)
     except OSError as error:
         raise RunError(
-            f"the folder {folder} for the tables of rail and wheels cannot be made: "
+            f"the folder {folder} for the tables of a run cannot be made: "
             f"{error.strerror or error}; make its own folder writable"
         ) from error
     has_failed = False

@@ -58,7 +58,9 @@ class Track:
     clip_preload : float
         Preload of a pad under the unloaded rail [N], where its parameters depend on it.
     supports : str
-        CSV file with what supports have of their own; see `support_table`.
+        CSV file with what supports have of their own.
+    supports_repeat : bool
+        Whether that begins anew behind the last support of the file.
     mode_pairs : int, optional
         Retained pairs of complex modes; see `retained_pairs`.
     residual_flexibility : bool
@@ -101,6 +103,7 @@ class Track:
     pad: Annotated[str, Choice(("linear",), or_csv=True)] = "linear"
     clip_preload: Annotated[float, Number(unit="N", at_least=0.0)] = 20e3
     supports: Annotated[str, CsvFile()] = ""
+    supports_repeat: bool = False
     mode_pairs: Annotated[int | None, Number(unit="pairs", at_least=1)] = None
     residual_flexibility: bool = True
     supports_per_wheel: Annotated[int, Number(unit="supports", at_least=1)] = 6
@@ -114,10 +117,10 @@ class Track:
                 f"track.sleeper_half_length, {self.sleeper_half_length:g} m, where the sleeper "
                 "ends: move the rail seat inwards"
             )
-        if self.endless and self.sleeper != "rigid":
+        if self.supports_repeat and not self.supports:
             raise InputError(
-                "track.endless is true but track.sleeper is 'beam': an endless track has rigid "
-                "sleepers"
+                "track.supports_repeat is true but track.supports names no file that could be "
+                "repeated: name one or leave the key out"
             )
         if self.degrees_of_freedom > MOST_DEGREES_OF_FREEDOM:
             raise InputError(

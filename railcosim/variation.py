@@ -15,7 +15,7 @@ LISTS = ("hanging_sleepers", "missing_fastenings", "missing_pads")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Variation:
-    """Keys of ``[variation]``; supports count from 1, at the first sleeper of the track.
+    """Keys of ``[variation]``; supports count from 1, one sleeper spacing from 0 m.
 
     Attributes
     ----------
@@ -58,9 +58,10 @@ class Variation:
                 object.__setattr__(self, key, str(value))  # one support, written as a number
         check_fields(self, "variation")
 
-    def listed(self, key: str) -> list[int]:
-        """Return the supports that a key of `LISTS` names, counted from 0."""
-        return [number - 1 for part in Numbers.read(getattr(self, key)) for number in part]
+    def listed(self, key: str, supports: int) -> list[int]:
+        """Return which of so many supports a key of `LISTS` names, counted from 0."""
+        parts = Numbers.read(getattr(self, key))
+        return [k for part in parts for k in range(part[0] - 1, min(part[-1], supports))]
 
     def check_supports(self, supports: int) -> None:
         """Refuse lists that name supports which a track does not have.

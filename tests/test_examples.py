@@ -218,6 +218,21 @@ def test_coach():
     assert float(abs(passage["car_acceleration"]).max()) < 0.005
 
 
+def test_endless_supports(tmp_path):
+    """By this implementation; tests/passage holds such supports to those of an ordinary track."""
+    scenario = read_scenario(EXAMPLES / "endless_supports.toml")
+    result = run_passage(scenario, fmus="native", contact="track", directory=tmp_path)
+    deepest = result["sleeper_displacement"].max("time")
+    assert float(deepest.max()) == pytest.approx(0.8535e-3, rel=2e-3)
+    assert float(result["sleeper_position"][int(deepest.argmax("sleeper"))]) == pytest.approx(
+        112 * 0.65
+    )
+    assert float(result["contact_force"].max()) == pytest.approx(124.80e3, rel=1e-3)
+    # nothing rests on the sleeper without a pad
+    missing = np.abs(result["sleeper_position"] - 92 * 0.65) < 0.1
+    assert float(deepest[missing].max()) < 0.01e-3
+
+
 def test_the_first_of_ten_kilometres():
     """318.76 kN at half the step; the force that is kept has the static mean."""
     scenario = read_scenario(EXAMPLES / "kilometres.toml", ["run.departure=116.1"])

@@ -47,6 +47,11 @@ class PolynomialBallast(MemorylessLaw):
         """No; see `ComponentLaw.stiff`."""
         return False
 
+    def moved(self, first: int, count: int) -> PolynomialBallast:
+        """Return the same law; see `ComponentLaw.moved`."""
+        del first, count
+        return self
+
     def force(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
         """Force increment [N], Eq. (27) + (30); see `ComponentLaw.force`."""
         del support  # every support is alike

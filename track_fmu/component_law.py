@@ -50,6 +50,14 @@ class ComponentLaw(Protocol):
         """Derivative of the force increment by the rate [N s/m], shape (c,)."""
         ...
 
+    def moved(self, first: int, count: int) -> ComponentLaw:
+        """Return the law of so many supports, from number ``first`` (from 0) on.
+
+        Those that the window of an endless track holds; see `SupportFactors.window`. A law that is
+        the same at every support is its own.
+        """
+        ...
+
     def during(self, step_size: float, memory: PadMemory) -> ComponentLaw:
         """Return the law over a step [s] that begins with what components remember.
 

@@ -42,12 +42,17 @@ class ActiveComponents:
         Modal deformations.
     flexibility : (c, c) float array
         Residual flexibility among them [m/N].
+    first_support : int
+        How many supports there are before the one of number 0, which are none but on an endless
+        track.
     remembers : bool
         Whether a law of theirs, bound to a step, has a memory.
     """
 
-    def __init__(self, track: ReducedTrack, groups: list[_Group], number: IntArray) -> None:
-        self.number = number
+    def __init__(
+        self, track: ReducedTrack, groups: list[_Group], number: IntArray, first_support: int
+    ) -> None:
+        self.number, self.first_support = number, first_support
         self.rows = track.ballast_rows.start + number
         self.shape: ComplexArray = track.shape[self.rows]
         self.flexibility: FloatArray = track.flexibility[np.ix_(self.rows, self.rows)]
@@ -128,21 +133,33 @@ class Components:
         self.count = 2 * track.parameters.supports
         self._track = track
         self._laws = (ballast, pad)
-        self._last: tuple[tuple[int, ...], ActiveComponents] | None = None
+        self._last: tuple[tuple[int, ...], int | None, ActiveComponents] | None = None
 
-    def active(self, supports: tuple[int, ...]) -> ActiveComponents:
-        """Components with a law at the given supports (numbers from 0)."""
-        if self._last is None or self._last[0] != supports:
-            self._last = supports, self._select(np.array(supports, dtype=np.intp))
-        return self._last[1]
+    def active(self, supports: tuple[int, ...], window: int | None = None) -> ActiveComponents:
+        """Components with a law at the given supports.
 
-    def _select(self, support: IntArray) -> ActiveComponents:
+        Parameters
+        ----------
+        supports : tuple of int
+            Numbers of the supports, from 0.
+        window : int or None
+            Bays before the window of an endless track, from which its supports are numbered; None
+            for an ordinary one.
+        """
+        if self._last is None or self._last[:2] != (supports, window):
+            active = self._select(np.array(supports, dtype=np.intp), window)
+            self._last = supports, window, active
+        return self._last[2]
+
+    def _select(self, support: IntArray, window: int | None) -> ActiveComponents:
         groups: list[_Group] = []
         numbers: list[IntArray] = []
+        count = self._track.parameters.supports
         for kind, law in enumerate(self._laws):
             if law is not None:
+                here = law if window is None else law.moved(window, count)
                 first = len(support) * len(groups)
-                groups.append(_Group(law, slice(first, first + len(support)), support))
-                numbers.append(support + kind * self._track.parameters.supports)
+                groups.append(_Group(here, slice(first, first + len(support)), support))
+                numbers.append(support + kind * count)
         number = np.concatenate(numbers) if numbers else np.zeros(0, dtype=np.intp)
-        return ActiveComponents(self._track, groups, number)
+        return ActiveComponents(self._track, groups, number, window or 0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -42,6 +42,10 @@ class TotalPad(MemorylessLaw):
     def stiff(self) -> bool:
         """Yes; see `ComponentLaw.stiff`."""
         return True
+
+    def moved(self, first: int, count: int) -> TotalPad:
+        """Return the law of other supports; see `ComponentLaw.moved`."""
+        return replace(self, factors=self.factors.window(first, count))
 
     def force(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
         """Force increment [N]; see `ComponentLaw.force`."""

@@ -18,7 +18,7 @@ import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
 
-from .assembly import TrackMatrices, to_banded
+from .assembly import IntArray, TrackMatrices, to_banded
 from .beam_element import FloatArray, mass_matrix, stiffness_matrix
 from .eigensolver import ComplexArray
 from .modal import ModalBasis
@@ -55,6 +55,11 @@ class ReducedTrack:
         Modal rows of what `SleeperOperators` observes of sleepers that bend.
     sleeper_flexibility : (m, n) float array
         Likewise of the truncated modes, with what the spread forces do inside an element.
+    bent_shape : (supports * s, S) complex array
+        Modal displacements of all degrees of freedom of sleepers that bend, one sleeper after the
+        other; no rows for rigid ones, whose displacements are coordinates.
+    bent_flexibility : (supports * s, n) float array
+        Likewise of the truncated modes.
     """
 
     parameters: TrackParameters
@@ -66,6 +71,8 @@ class ReducedTrack:
     moment_flexibility: FloatArray
     sleeper_shape: ComplexArray
     sleeper_flexibility: FloatArray
+    bent_shape: ComplexArray
+    bent_flexibility: FloatArray
 
     @property
     def seat_rows(self) -> slice:
@@ -113,6 +120,8 @@ def reduce_track(
     sleeper_shape = of_sleepers.of_modes(basis)
     sleeper_flexibility = of_sleepers.of_forces(coordinates.shape[0])
     nodes, count = len(matrices.numbering.rail), coordinates.shape[0]
+    bent = _bent_dofs(parameters, matrices)
+    bent_shape, bent_flexibility = basis.modes[bent], np.zeros((len(bent), count))
     if residual_flexibility:
         response = _static_response(matrices, coordinates)
         modal = shape * (basis.weight / basis.eigenvalues)
@@ -122,6 +131,7 @@ def reduce_track(
         moment_flexibility += _real_product(moment_shape, modal)
         sleeper_flexibility += of_sleepers.static @ response
         sleeper_flexibility += _real_product(sleeper_shape, modal)
+        bent_flexibility = response[bent] + _real_product(bent_shape, modal)
     else:
         flexibility = np.zeros((count, count))
         moment_flexibility = np.zeros((nodes, count))
@@ -135,7 +145,15 @@ def reduce_track(
         moment_flexibility=moment_flexibility,
         sleeper_shape=sleeper_shape,
         sleeper_flexibility=sleeper_flexibility,
+        bent_shape=bent_shape,
+        bent_flexibility=bent_flexibility,
     )
+
+
+def _bent_dofs(parameters: TrackParameters, matrices: TrackMatrices) -> IntArray:
+    """Degrees of freedom of sleepers that bend, one sleeper after the other."""
+    dofs = matrices.numbering.sleeper_dofs
+    return dofs[:0].ravel() if parameters.sleeper == "rigid" else dofs.ravel()
 
 
 def _coordinate_operator(matrices: TrackMatrices) -> sp.csr_array:

@@ -177,8 +177,9 @@ def _refuse_falling(track: ReducedTrack, active: ActiveComponents, deformation: 
     worst = int(np.argmin(whole / linear))
     if whole[worst] < -ROUNDING * linear[worst]:
         kind = "ballast" if active.number[worst] < supports else "pad"
+        support = active.first_support + active.number[worst] % supports + 1
         raise RuntimeError(
-            f"track: the load on the {kind} of support {active.number[worst] % supports + 1} falls "
+            f"track: the load on the {kind} of support {support} falls "
             f"with its displacement at {deformation[worst]:.3g} m ({whole[worst]:.3g} N/m): the "
             "static equilibrium is not the only one; use a law whose load rises"
         )

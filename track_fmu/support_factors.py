@@ -3,15 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
 from .beam_element import FloatArray
 
 
+def nominal_value(name: str) -> float:
+    """What a support has that nothing is said of, by the name of an attribute or a parameter."""
+    return 0.0 if name == "gap" else 1.0
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SupportFactors:
     """Factors on the laws of every support, and how it is put together, (supports,) each.
+
+    Those of an endless track are of the supports from the first one on, at one sleeper spacing,
+    as far as they differ; what the model holds of them at a time is their `window`.
 
     Attributes
     ----------
@@ -23,6 +32,9 @@ class SupportFactors:
         Between the unloaded sleeper and its ballast [m]; ballast under a gap cannot pull.
     fastened : float array
         1 where the fastening holds the rail down, 0 where the rail can lift off its pad.
+    repeat : bool
+        Whether they begin anew behind the last support, without end; false: supports are nominal
+        there.
 
     Raises
     ------
@@ -36,26 +48,50 @@ class SupportFactors:
     ballast_damping: FloatArray
     gap: FloatArray
     fastened: FloatArray
+    repeat: bool = False
 
     def __post_init__(self) -> None:
-        for field in fields(self):
-            values = getattr(self, field.name)
+        for name in self._properties():
+            values = getattr(self, name)
             wrong = np.flatnonzero(~(np.isfinite(values) & (values >= 0.0)))
             if len(wrong):
                 raise ValueError(
-                    f"track: {field.name} = {float(values[wrong[0]])!r} of support "
+                    f"track: {name} = {float(values[wrong[0]])!r} of support "
                     f"{wrong[0] + 1} must be a finite number, at least 0"
                 )
 
     @classmethod
     def nominal(cls, supports: int) -> SupportFactors:
         """All supports alike, without gaps, all fastened."""
-        return cls(
-            **{
-                field.name: np.full(supports, 0.0 if field.name == "gap" else 1.0)
-                for field in fields(cls)
-            }
-        )
+        values: dict[str, Any] = {
+            name: np.full(supports, nominal_value(name)) for name in cls._properties()
+        }
+        return cls(**values)
+
+    @classmethod
+    def _properties(cls) -> list[str]:
+        """Names of what every support has."""
+        return [field.name for field in fields(cls) if field.name != "repeat"]
+
+    def window(self, first: int, count: int) -> SupportFactors:
+        """What so many supports have, from a support on; nominal where nothing is known of them.
+
+        Parameters
+        ----------
+        first : int
+            Number of the first of them, from 0; below that, before the first support of the
+            track, supports are nominal.
+        count : int
+            How many.
+        """
+        number, known = first + np.arange(count), len(self.gap)
+        place = number % known if self.repeat else np.clip(number, 0, known - 1)
+        there = (number >= 0) & (self.repeat | (number < known))
+        values: dict[str, Any] = {
+            name: np.where(there, getattr(self, name)[place], nominal_value(name))
+            for name in self._properties()
+        }
+        return SupportFactors(**values)
 
     @property
     def pads_differ(self) -> bool:

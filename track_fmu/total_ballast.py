@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -62,6 +62,10 @@ class TotalBallast(MemorylessLaw):
     def stiff(self) -> bool:
         """Yes; see `ComponentLaw.stiff`."""
         return True
+
+    def moved(self, first: int, count: int) -> TotalBallast:
+        """Return the law of other supports; see `ComponentLaw.moved`."""
+        return replace(self, factors=self.factors.window(first, count))
 
     def force(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
         """Force increment [N]; see `ComponentLaw.force`."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from .beam_element import FloatArray
 from .component_law import ComponentLaw
-from .components import Components
+from .components import ActiveComponents, Components
 from .exponential_step import ExponentialSteps
 from .observation import Observation
 from .reduction import ReducedTrack
@@ -141,7 +141,7 @@ class TrackModel:
         static_start(
             self._state,
             self.track,
-            self._components.active(self._nearest(positions)),
+            self._active(positions),
             wheels=wheels,
             forces=forces,
             speed=self.options.initial_speed,
@@ -222,7 +222,7 @@ class TrackModel:
             operator = self._operator = StepOperator(
                 self._state,
                 self.track,
-                self._components.active(self._nearest(positions)),
+                self._active(positions),
                 self._exponentials.of(step_size),
                 step_size=step_size,
                 positions=positions,
@@ -244,6 +244,7 @@ class TrackModel:
                     "number; look for the cause in the vehicle"
                 )
 
-    def _nearest(self, positions: FloatArray) -> tuple[int, ...]:
+    def _active(self, positions: FloatArray) -> ActiveComponents:
         parameters, count = self.track.parameters, self.options.supports_per_wheel
-        return nearest_supports(parameters, positions - self.window.position, count)
+        nearest = nearest_supports(parameters, positions - self.window.position, count)
+        return self._components.active(nearest, self.window.bays_before)

@@ -8,7 +8,7 @@ those of its middle, the force s in the branch, ``s' = k1 (x' - s / c1)``, then 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -64,6 +64,10 @@ class ViscoelasticPads:
     def stiff(self) -> bool:
         """Yes; see `ComponentLaw.stiff`."""
         return True
+
+    def moved(self, first: int, count: int) -> ViscoelasticPads:
+        """Return the law of other supports; see `ComponentLaw.moved`."""
+        return replace(self, factors=self.factors.window(first, count))
 
     def force(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
         """Force increment [N]; see `ComponentLaw.force`."""

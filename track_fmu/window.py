@@ -31,16 +31,9 @@ class Window:
         Holds the offset and is moved with it.
     endless : bool
         Whether it moves.
-
-    Raises
-    ------
-    ValueError
-        If it is to move over sleepers that bend.
     """
 
     def __init__(self, track: ReducedTrack, state: TrackState, *, endless: bool) -> None:
-        if endless and track.parameters.sleeper != "rigid":
-            raise ValueError("track: endless is true, but a track of sleepers that bend cannot be")
         self._parameters, self._state = track.parameters, state
         self._shift = WindowShift(track) if endless else None
 
@@ -48,6 +41,11 @@ class Window:
     def endless(self) -> bool:
         """Whether it moves."""
         return self._shift is not None
+
+    @property
+    def bays_before(self) -> int | None:
+        """Bays before its beginning, None for an ordinary track."""
+        return round(float(self._state.offset[0])) if self.endless else None
 
     @property
     def position(self) -> float:

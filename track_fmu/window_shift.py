@@ -1,7 +1,8 @@
 """Moves the window of an endless track by whole bays, through the physical state.
 
 Displacements and velocities of all nodes and sleepers, the truncated modes' static part included,
-are those of the nodes that many bays further on; what enters the window is at rest. The modes'
+are those of the nodes that many bays further on, and so are all degrees of freedom of sleepers
+that bend; what enters the window is at rest. The modes'
 biorthogonality, Eq. (7)-(11), gives the modal states back, for ``a_n = 1``:
 
     q_n = rho_n^T (C x + M x') + lambda_n rho_n^T M x
@@ -19,6 +20,7 @@ import numpy as np
 from .assembly import IntArray, assemble
 from .beam_element import FloatArray
 from .contact_point import RailPoint
+from .eigensolver import ComplexArray
 from .reduction import ReducedTrack
 from .track_state import TrackState
 
@@ -36,12 +38,21 @@ class WindowShift:
         matrices = assemble(track.parameters)
         self._track, self._numbering = track, matrices.numbering
         self._mass, self._damping = matrices.mass, matrices.damping
-        rail = matrices.numbering.rail
-        coordinate = np.empty(matrices.numbering.size, dtype=np.intp)
-        coordinate[rail[rail >= 0]] = np.flatnonzero(rail.ravel() >= 0)
-        first = track.ballast_rows.start
-        coordinate[matrices.numbering.sleeper] = first + np.arange(track.parameters.supports)
-        self._coordinate: IntArray = coordinate
+        rail, sleepers = matrices.numbering.rail, matrices.numbering.sleeper_dofs.ravel()
+        rigid = track.parameters.sleeper == "rigid"
+        # the degrees of freedom of nodes, then of sleepers, and their rows
+        self._dofs: IntArray = np.concatenate((rail[rail >= 0], sleepers))
+        nodes = np.flatnonzero(rail.ravel() >= 0)
+        below = track.ballast_rows
+        self._shape: ComplexArray = np.vstack(
+            (track.shape[nodes], track.shape[below] if rigid else track.bent_shape)
+        )
+        self._flexibility: FloatArray = np.vstack(
+            (
+                track.flexibility[nodes],
+                track.flexibility[below] if rigid else track.bent_flexibility,
+            )
+        )
 
     def apply(
         self,
@@ -64,16 +75,14 @@ class WindowShift:
         wheels : sequence of RailPoint
             Where the wheels stand in the moved window.
         """
-        track, rows = self._track, self._coordinate
-        shape, weight = track.shape[rows], track.weight
-        rate = weight * (track.eigenvalues * state.modal + state.load)
-        displacement = self._moved(
-            np.real(shape @ (weight * state.modal)) + track.flexibility[rows] @ forces, bays
-        )
+        track, shape = self._track, self._shape
+        rate = track.weight * (track.eigenvalues * state.modal + state.load)
+        modal = np.real(shape @ (track.weight * state.modal))
+        displacement = self._moved(modal + self._flexibility @ forces, bays)
         velocity = self._moved(np.real(shape @ rate), bays)
         momentum = self._damping @ displacement + self._mass @ velocity
-        state.modal[:] = momentum @ shape
-        state.modal += track.eigenvalues * ((self._mass @ displacement) @ shape)
+        state.modal[:] = momentum[self._dofs] @ shape
+        state.modal += track.eigenvalues * ((self._mass @ displacement)[self._dofs] @ shape)
         supports = track.parameters.supports
         for values in (state.increment, state.increment_rate):
             for kind in values.reshape(-1, supports):
@@ -97,13 +106,14 @@ class WindowShift:
 
     def _moved(self, values: FloatArray, bays: int) -> FloatArray:
         """Values of all degrees of freedom, those of the nodes and sleepers further on."""
-        rail, sleeper = self._numbering.rail, self._numbering.sleeper
+        rail, sleepers = self._numbering.rail, self._numbering.sleeper_dofs
         nodes = np.zeros(rail.shape)
-        nodes[rail >= 0] = values[rail[rail >= 0]]
+        held = int(np.count_nonzero(rail >= 0))
+        nodes[rail >= 0] = values[:held]
         moved = np.empty_like(values)
         along = _shifted(nodes, bays * self._track.parameters.elements_per_bay)
         moved[rail[rail >= 0]] = along[rail >= 0]
-        moved[sleeper] = _shifted(values[sleeper], bays)
+        moved[sleepers] = _shifted(values[held:].reshape(sleepers.shape), bays)
         return moved
 
 

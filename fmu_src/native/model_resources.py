@@ -21,6 +21,7 @@ from track_fmu.beam_element import FloatArray, mass_matrix, shear_parameter
 from track_fmu.eigensolver import ComplexArray
 from track_fmu.parameters import TrackParameters
 from track_fmu.reduction import ReducedTrack, reduce_track
+from track_fmu.sleeper import half_sleeper
 
 from .resource import Section, pack, start_values
 
@@ -58,18 +59,21 @@ def track_resource(
     variables = declare(parameters, wheels=wheels, gauges=gauges)
     fixed = {name: asdict(parameters)[name] for name, _, _ in (*TABLE_1, *SLEEPER)}
     fixed |= {"mode_pairs": mode_pairs, "residual_flexibility": residual_flexibility}
-    half = _filled(len(reduced.eigenvalues))
+    half, sleeper = _filled(len(reduced.eigenvalues)), half_sleeper(parameters)
     sections: dict[str, Section] = {
         "model": b"TrackContact" if contact else b"Track",
         "structure": np.array(
             [
                 *(wheels, gauges, parameters.bays, parameters.elements_per_bay),
                 *(len(reduced.eigenvalues), half),
+                *(sleeper.size, sleeper.seat),
             ],
             dtype=np.int64,
         ),
         "numbers": _numbers(parameters),
-        "inertia": _inertia(parameters),
+        "inertia": mass_matrix(parameters.section, parameters.element_length),
+        "sleeper_mass": sleeper.mass,
+        "sleeper_bed": sleeper.bed,
     }
     return pack(sections | _modes(reduced, half) | start_values(variables, fixed))
 
@@ -111,12 +115,6 @@ def _numbers(parameters: TrackParameters) -> FloatArray:
     )
 
 
-def _inertia(parameters: TrackParameters) -> FloatArray:
-    """Mass matrix of an element, by rows, then the mass of a sleeper: what moves a window."""
-    element = mass_matrix(parameters.section, parameters.element_length)
-    return np.append(element, parameters.sleeper_mass)
-
-
 def _modes(reduced: ReducedTrack, half: int) -> dict[str, Section]:
     """The reduced track, rows of modes split and filled up."""
     weight = np.zeros(half)
@@ -124,6 +122,8 @@ def _modes(reduced: ReducedTrack, half: int) -> dict[str, Section]:
     sleepers: dict[str, Section] = {
         "sleeper_shape": _rows(reduced.sleeper_shape, half),
         "sleeper_flexibility": reduced.sleeper_flexibility,
+        "bent_shape": _rows(reduced.bent_shape, half),
+        "bent_flexibility": np.ascontiguousarray(reduced.bent_flexibility.T),
     }
     return (sleepers if len(reduced.sleeper_shape) else {}) | {
         "eigenvalues": _rows(reduced.eigenvalues, half),

@@ -29,6 +29,8 @@ ON_TRACK = (
     "rail_point.c",
     "rows.c",
     "static_start.c",
+    "support_file.c",
+    "support_line.c",
     "supports.c",
     "table_file.c",
     "track_memory.c",

@@ -44,6 +44,8 @@ TRACK_MODULES = (
     "track_parameters.py",
     "track_making.py",
     "track_laws.py",
+    "supports.py",
+    "support_table.py",
     "basis_cache.py",
 )
 VEHICLE_MODULES = (

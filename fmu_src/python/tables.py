@@ -38,7 +38,7 @@ def read_table(
         If the file cannot be read, a line has the wrong number of values or a value is not a
         finite number; the message names file and line.
     """
-    text = _read_text(path)
+    text = read_text(path)
     rows: list[list[float]] = []
     names = list(columns)
     header_allowed = True
@@ -60,8 +60,14 @@ def read_table(
     return {name: values[:, i].copy() for i, name in enumerate(names)}
 
 
-def _read_text(path: str | Path) -> str:
-    """Text of a file without its byte order mark."""
+def read_text(path: str | Path) -> str:
+    """Text of a file without its byte order mark.
+
+    Raises
+    ------
+    ValueError
+        If there is none.
+    """
     try:
         data = Path(path).read_bytes()
     except OSError as error:

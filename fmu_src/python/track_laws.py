@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from track_fmu.ballast import PolynomialBallast
 from track_fmu.characteristics import (
     Characteristic,
@@ -23,58 +21,33 @@ from track_fmu.support_factors import SupportFactors
 from track_fmu.total_ballast import TotalBallast
 from track_fmu.viscoelastic_pads import ViscoelasticPads
 
+from .supports import support_factors
 from .tables import read_table
-
-SUPPORT_PARAMETERS = (
-    ("pad_stiffness_factor", 1.0, "1", "Factor on the stiffness of the rail pad of support {}"),
-    ("pad_damping_factor", 1.0, "1", "Factor on the damping of the rail pad of support {}"),
-    ("ballast_stiffness_factor", 1.0, "1", "Factor on the ballast stiffness under support {}"),
-    ("ballast_damping_factor", 1.0, "1", "Factor on the ballast damping under support {}"),
-    ("gap", 0.0, "m", "Gap between the unloaded sleeper of support {} and its ballast"),
-    ("fastened", True, "", "Whether the rail is fastened on support {}; false: it can lift off"),
-)
-"""Name, start value, unit and description of what every support has of its own."""
 
 CHARACTERISTIC = ("displacement", "load")
 PRELOADED = ("preload", "static_stiffness", "branch_stiffness", "branch_damping")
 
 
 def make_laws(
-    track: TrackParameters, parameters: Mapping[str, Any]
+    track: TrackParameters, parameters: Mapping[str, Any], factors: SupportFactors | None = None
 ) -> tuple[ComponentLaw | None, ComponentLaw | None]:
     """Laws of the increments of ballast and pads; None is linear and the same at every support.
+
+    The supports have what the parameters say of them, unless the factors are given.
 
     Raises
     ------
     ValueError
         If a parameter is wrong or a table cannot be used.
     """
-    factors = support_factors(track.supports, parameters)
-    if parameters.get("endless", False) and (factors.pads_differ or factors.ballast_differs):
-        raise ValueError(
-            "track: endless is true, but its supports differ; leave one of the two out"
-        )
+    if factors is None:
+        factors = support_factors(track, parameters)
     if track.sleeper != "rigid" and (factors.ballast_differs or not parameters["ballast_pulls"]):
         raise ValueError(
             "track: sleepers bend, but their ballast differs or does not pull; leave one of the "
             "two out"
         )
     return _ballast_law(track, parameters, factors), _pad_law(track, parameters, factors)
-
-
-def support_factors(supports: int, parameters: Mapping[str, Any]) -> SupportFactors:
-    """What the supports have of their own; nominal where nothing is given."""
-    return SupportFactors(
-        **{
-            name.removesuffix("_factor"): np.array(
-                [
-                    float(parameters.get(f"support[{i}].{name}", start))
-                    for i in range(1, supports + 1)
-                ]
-            )
-            for name, start, _, _ in SUPPORT_PARAMETERS
-        }
-    )
 
 
 def _ballast_law(

@@ -6,7 +6,7 @@ from track_fmu.ballast import PolynomialBallast
 from track_fmu.parameters import TrackParameters
 from track_fmu.track_model import TrackOptions
 
-from .track_laws import SUPPORT_PARAMETERS
+from .supports import SUPPORT_PARAMETERS
 from .variables import Variable
 
 # name, unit, description of the parameters of Table 1
@@ -140,6 +140,11 @@ def _law_parameters(structure: TrackParameters) -> list[Variable]:
           "preload [N], static stiffness, stiffness [N/m] and damping [N.s/m] of the branch")),
         ("clip_preload", 20e3, "N", 0.0,
          "Preload of a rail pad under the unloaded rail, where its parameters depend on it"),
+        ("supports", "", "", None,
+         ("CSV file of supports that differ, instead of support[i].*: number (from 1) or position "
+          "[m] and any of the others' names as columns; empty: there is none")),
+        ("supports_repeat", False, "", None,
+         "Whether the table of supports begins anew behind its last one; false: nominal there"),
     )  # fmt: skip
     variables = [
         Variable(

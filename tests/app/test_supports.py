@@ -10,9 +10,12 @@ import pytest
 
 from railcosim.errors import InputError
 from railcosim.input_tables import check_laws
+from railcosim.motion import speed_law
 from railcosim.pad_curves import pad_loops
 from railcosim.scenario_file import read_scenario
+from railcosim.start_values import track_values
 from railcosim.support_values import random_factors, support_properties, support_values
+from railcosim.surface_tables import write_supports
 from railcosim.track_data import require_paper_laws
 from railcosim.variation import Variation
 
@@ -72,12 +75,54 @@ def test_wrong_tables_are_refused(tmp_path, text, sentence):
         check_laws(read_scenario(None, [f"track.supports={table}"]))
 
 
+def test_an_endless_track_has_the_supports_that_the_passage_reaches(tmp_path):
+    """Those of a list beyond it, however many, are left out; a table may be repeated."""
+    table = tmp_path / "supports.csv"
+    table.write_text("number,pad_stiffness_factor\n2,0.5\n10,3\n")
+    keys = [
+        f"track.supports={table}",
+        "track.supports_repeat=true",
+        "track.endless=true",
+        "flat.position=100",
+        "variation.hanging_sleepers=160, 205-999999",
+    ]
+    own = support_properties(read_scenario(None, keys))
+    count = len(own["gap"])
+    assert 158 + 25 <= count <= 158 + 60
+    assert own["pad_stiffness_factor"][[1, 9, 11, 19, 101]].tolist() == [0.5, 3.0, 0.5, 3.0, 0.5]
+    assert np.flatnonzero(own["gap"]).tolist() == [159, *range(204, count)]
+
+
+def test_an_endless_passage_passes_its_supports_on_as_a_file(tmp_path):
+    """One that has no variation names the table itself, as a package does."""
+    table = tmp_path / "supports.csv"
+    table.write_text("number,gap\n200,1e-3\n")
+    endless = ["track.endless=true", f"track.supports={table}", "track.supports_repeat=true"]
+    named, written = (
+        read_scenario(None, [*endless, *keys]) for keys in ([], ["variation.missing_pads=3"])
+    )
+    law = speed_law(named.vehicle)
+    values = track_values(named, law)
+    assert (values["supports"], values["supports_repeat"]) == (str(table), True)
+    with pytest.raises(InputError, match=r"\[variation\] on an endless track is written for a run"):
+        track_values(written, law)
+    path = write_supports(tmp_path / "all.csv", written)
+    again = support_properties(
+        read_scenario(None, ["track.endless=true", f"track.supports={path}"])
+    )
+    own = support_properties(written)
+    assert all(np.array_equal(again[name], values) for name, values in own.items())
+    assert own["pad_stiffness_factor"][2] == 0.0
+    assert read_scenario(None, ["track.endless=true", "track.sleeper=beam"]).track.endless
+
+
 @pytest.mark.parametrize(
     ("override", "sentence"),
     [
         ("variation.missing_pads=50", "names support 50 but the track has 49"),
         ("variation.missing_pads=3-1", "whole numbers from 1 on"),
         ("variation.missing_pads=a", "whole numbers from 1 on"),
+        ("track.supports_repeat=true", "track.supports names no file that could be repeated"),
         ("track.pad=rubber", "one of linear or a FILE.csv"),
     ],
 )

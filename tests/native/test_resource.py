@@ -13,7 +13,7 @@ from fmu_src.native.resource import ENTRY, HEAD, pack
 
 from .library import NativeError, aligned, create
 
-SECTIONS = 13  # of a track
+SECTIONS = 15  # of a track
 
 
 def refuse(library, data, match):
@@ -85,15 +85,17 @@ def test_structure_that_makes_no_sense(libraries, structure):
 
 @pytest.mark.parametrize("value", [0.0, -0.65, np.nan, np.inf])
 def test_track_that_cannot_be(libraries, value):
-    structure = np.array([1, 0, 4, 2, 3, 8], dtype=np.int64)
+    structure = np.array([1, 0, 4, 2, 3, 8, 1, 0], dtype=np.int64)
     numbers = np.array([value, 46.0, 8e7, 1e4, 3e7, 3e4])
     sections = {"model": b"Track", "structure": structure, "numbers": numbers}
     refuse(libraries["track"], pack(sections), r"resource describes a track that cannot be")
 
 
-@pytest.mark.parametrize(("place", "value"), [(0, 0), (2, 1), (4, 0), (5, 7), (5, 0), (1, -1)])
+@pytest.mark.parametrize(
+    ("place", "value"), [(0, 0), (2, 1), (4, 0), (5, 7), (5, 0), (1, -1), (6, 0), (6, 1001), (7, 1)]
+)
 def test_size_that_cannot_be(libraries, place, value):
-    structure = np.array([1, 0, 4, 2, 3, 8], dtype=np.int64)
+    structure = np.array([1, 0, 4, 2, 3, 8, 1, 0], dtype=np.int64)
     structure[place] = value
     sections = {"model": b"Track", "structure": structure}
     refuse(libraries["track"], pack(sections), "how large the track is")

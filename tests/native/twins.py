@@ -115,7 +115,9 @@ class TrackPair:
         self.parameters = parameters
         self.wheels = len(self.native.group("wheel[#].position"))
         start = {v.name: v.start for v in track_parameters(parameters, gauges=0)}
-        laws = make_laws(parameters, start | {"ballast": ballast} | dict(values))
+        laws = make_laws(
+            parameters, start | {"ballast": ballast, "endless": endless} | dict(values)
+        )
         self.reduced = reduced_track(
             parameters,
             int(self.native.get(["mode_pairs"], INTEGER)[0]),

@@ -4,11 +4,12 @@
 
 #include "rows.h"
 
-enum { WHEELS, GAUGES, BAYS, ELEMENTS_PER_BAY, MODES, HALF, SIZES };
+enum { WHEELS, GAUGES, BAYS, ELEMENTS_PER_BAY, MODES, HALF, SLEEPER_SIZE, SEAT, SIZES };
 enum { SPACING, SHEAR_PARAMETER, PAD_K, PAD_C, BALLAST_K, BALLAST_C, NUMBERS };
 
 #define TINY 1e-12 /* lengths and stiffnesses are larger, in any unit */
 #define MOST 1000000 /* more of anything is a damaged resource, and its square fits in a size_t */
+#define MOST_OF_SLEEPER 1000 /* likewise of its degrees of freedom */
 
 static int sizes_fit(const int64_t *size)
 {
@@ -17,17 +18,38 @@ static int sizes_fit(const int64_t *size)
             return 0;
     return size[WHEELS] >= 1 && size[BAYS] >= 2 && size[ELEMENTS_PER_BAY] >= 1 &&
            size[BAYS] * size[ELEMENTS_PER_BAY] <= MOST && size[MODES] >= 1 &&
-           size[HALF] >= size[MODES] && size[HALF] % RC_LANES == 0;
+           size[HALF] >= size[MODES] && size[HALF] % RC_LANES == 0 && size[SLEEPER_SIZE] >= 1 &&
+           size[SLEEPER_SIZE] <= MOST_OF_SLEEPER && size[SEAT] < size[SLEEPER_SIZE];
 }
 
-/* Whether masses are numbers, and above zero on the diagonal. */
-static int masses_fit(const double *inertia)
+/* Whether the numbers of a matrix are numbers, and above zero on the diagonal. */
+static int is_inertia(const double *matrix, size_t size)
 {
-    for (size_t i = 0; i < RC_INERTIA_COUNT; ++i)
-        if (!isfinite(inertia[i]) || ((i % 5 == 0 || i == RC_INERTIA_COUNT - 1) &&
-                                      !(inertia[i] > 0.0)))
+    for (size_t i = 0; i < size * size; ++i)
+        if (!isfinite(matrix[i]) || (i % (size + 1) == 0 && !(matrix[i] > 0.0)))
             return 0;
     return 1;
+}
+
+/* What it takes to move a window: masses, the sleepers' bed, and all displacements. */
+static rc_status read_motion(rc_model *model, rc_basis *basis)
+{
+    const size_t size = basis->sleeper_size, all = basis->supports * size;
+    basis->bent_shape = basis->bent_flexibility = NULL;
+    if ((basis->inertia = rc_require_section(model, "inertia", RC_INERTIA_COUNT)) == NULL ||
+        (basis->sleeper_mass = rc_require_section(model, "sleeper_mass", size * size)) == NULL ||
+        (basis->sleeper_bed = rc_require_section(model, "sleeper_bed", size * size)) == NULL ||
+        (size > 1 &&
+         ((basis->bent_shape = rc_require_section(model, "bent_shape", all * basis->length)) ==
+              NULL ||
+          (basis->bent_flexibility = rc_require_section(model, "bent_flexibility",
+                                                        basis->coordinates * all)) == NULL)))
+        return RC_ERROR;
+    if (!is_inertia(basis->inertia, 4) || !is_inertia(basis->sleeper_mass, size) ||
+        !is_inertia(basis->sleeper_bed, size))
+        return rc_fail(model, RC_ERROR, "the resource describes a track without mass or ballast; "
+                                        "build the FMU again");
+    return RC_OK;
 }
 
 /* What is observed of the sleepers, which the resource has if they are beams. */
@@ -69,6 +91,8 @@ rc_status rc_read_basis(rc_model *model, rc_basis *basis)
     basis->modes = (size_t)size[MODES];
     basis->half = (size_t)size[HALF];
     basis->length = 2 * basis->half;
+    basis->sleeper_size = (size_t)size[SLEEPER_SIZE];
+    basis->seat = (size_t)size[SEAT];
     basis->spacing = number[SPACING];
     basis->element_length = number[SPACING] / (double)size[ELEMENTS_PER_BAY];
     basis->track_length = (double)size[BAYS] * number[SPACING];
@@ -86,10 +110,7 @@ rc_status rc_read_basis(rc_model *model, rc_basis *basis)
         (basis->flexibility = rc_require_section(model, "flexibility", n * n)) == NULL ||
         (basis->moment_flexibility = rc_require_section(model, "moment_flexibility", nodes * n)) ==
             NULL ||
-        (basis->inertia = rc_require_section(model, "inertia", RC_INERTIA_COUNT)) == NULL)
+        read_motion(model, basis) != RC_OK)
         return RC_ERROR;
-    if (!masses_fit(basis->inertia))
-        return rc_fail(model, RC_ERROR, "the resource describes a track without mass; build the "
-                                        "FMU again");
     return read_sleepers(model, basis);
 }

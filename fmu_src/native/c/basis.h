@@ -10,12 +10,13 @@
 
 #include "instance.h"
 
-#define RC_INERTIA_COUNT 17
+#define RC_INERTIA_COUNT 16
 
 typedef struct {
     size_t wheels, gauges, elements, supports;
     size_t nodes, coordinates; /* elements + 1; 2 nodes + 2 supports */
     size_t modes, half, length; /* half: modes filled up; length of a row: twice that */
+    size_t sleeper_size, seat; /* degrees of freedom of a sleeper, and which is its rail seat's */
     double element_length, spacing, shear_parameter, track_length;
     double pad_stiffness, pad_damping, ballast_stiffness, ballast_damping;
     const double *eigenvalues;  /* row */
@@ -25,7 +26,12 @@ typedef struct {
     const double *moment_shape; /* (nodes, length), rows */
     const double *flexibility;  /* (coordinates, coordinates) */
     const double *moment_flexibility; /* (nodes, coordinates) */
-    const double *inertia; /* mass matrix of an element, by rows, then the mass of a sleeper */
+    const double *inertia; /* mass matrix of an element of the rail, by rows */
+    const double *sleeper_mass, *sleeper_bed; /* of one sleeper, by rows; the bed's total is one */
+    /* all degrees of freedom of the sleepers, one sleeper after the other; NULL if they are rigid,
+     * whose displacements are coordinates */
+    const double *bent_shape;       /* (supports sleeper_size, length), rows */
+    const double *bent_flexibility; /* (coordinates, supports sleeper_size) */
     /* bending moments of the sleepers at all rail seats, then at all centres, then their mean
      * deflections; NULL if they are rigid */
     const double *sleeper_shape;       /* (3 supports, length), rows */

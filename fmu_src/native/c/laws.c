@@ -16,10 +16,11 @@ static response nothing(void)
     return (response){0.0, 0.0, 0.0};
 }
 
-static response press_ballast(const rc_laws *laws, size_t support, double deformation, double rate)
+static response press_ballast(const rc_laws *laws, const rc_support *own, double deformation,
+                              double rate)
 {
     const double k = laws->ballast_stiffness, c = laws->ballast_damping, tau = c / k;
-    const double gap = laws->gap[support], x = deformation - gap;
+    const double gap = own->of[RC_GAP], x = deformation - gap;
     const int loose = gap > 0.0 || !laws->pulls;
     if (loose && !(x > 0.0))
         return nothing();
@@ -36,8 +37,8 @@ static response press_ballast(const rc_laws *laws, size_t support, double deform
         damping_slope = share * damping_slope + damping / ONSET;
         damping = share * damping;
     }
-    const double spring = laws->ballast_stiffness_factor[support];
-    const double damper = laws->ballast_damping_factor[support];
+    const double spring = own->of[RC_BALLAST_STIFFNESS_FACTOR];
+    const double damper = own->of[RC_BALLAST_DAMPING_FACTOR];
     const response whole = {.total = spring * (k * x + bed.load) + damper * damping * rate,
                             .by_deformation =
                                 spring * (k + bed.tangent) + damper * damping_slope * rate,
@@ -45,14 +46,14 @@ static response press_ballast(const rc_laws *laws, size_t support, double deform
     return loose && whole.total < 0.0 ? nothing() : whole;
 }
 
-static response press_pad(const rc_laws *laws, size_t support, double x, double rate)
+static response press_pad(const rc_laws *laws, const rc_support *own, double x, double rate)
 {
-    const int loose = laws->fastened[support] == 0.0;
+    const int loose = own->of[RC_FASTENED] == 0.0;
     if (loose && !(x > 0.0))
         return nothing();
     const rc_jet spring = rc_characteristic_at(&laws->spring, x);
-    const double factor = laws->pad_stiffness_factor[support];
-    const double damper = laws->pad_damping_factor[support] * laws->pad_damping;
+    const double factor = own->of[RC_PAD_STIFFNESS_FACTOR];
+    const double damper = own->of[RC_PAD_DAMPING_FACTOR] * laws->pad_damping;
     const int onset = loose && x < ONSET;
     const double share = onset ? x / ONSET : 1.0, share_slope = onset ? 1.0 / ONSET : 0.0;
     const response whole = {
@@ -63,19 +64,20 @@ static response press_pad(const rc_laws *laws, size_t support, double x, double 
     return loose && whole.total < 0.0 ? nothing() : whole;
 }
 
-static double compress(const rc_laws *laws, size_t support, double deformation)
+static double compress(const rc_support *own, double deformation)
 {
-    return laws->fastened[support] == 0.0 && !(deformation > 0.0) ? 0.0 : deformation;
+    return own->of[RC_FASTENED] == 0.0 && !(deformation > 0.0) ? 0.0 : deformation;
 }
 
 /* The branch at the end of a step that compresses the pad to x on a straight line. */
-static response relax(const rc_laws *laws, const rc_pad_memory *memory, size_t support, double x)
+static response relax(const rc_laws *laws, const rc_support *own, const rc_pad_memory *memory,
+                      size_t place, double x)
 {
-    const double spring = laws->pad_stiffness_factor[support];
-    const double dashpot = laws->pad_damping_factor[support];
-    if (memory->known[support] == 0.0)
+    const double spring = own->of[RC_PAD_STIFFNESS_FACTOR];
+    const double dashpot = own->of[RC_PAD_DAMPING_FACTOR];
+    if (memory->known[place] == 0.0)
         return nothing();
-    const double first = memory->compression[support];
+    const double first = memory->compression[place];
     const rc_jet middle = rc_pad_at_rest(&laws->viscoelastic, 0.5 * (first + x));
     const rc_branch branch = rc_pad_branch(&laws->viscoelastic, middle.load);
     const double k1 = spring * branch.stiffness, c1 = dashpot * branch.damping;
@@ -89,7 +91,7 @@ static response relax(const rc_laws *laws, const rc_pad_memory *memory, size_t s
     const double decay = exp(-z);
     const double phi = z < SMALL ? 1.0 - z * (0.5 - z / 6.0) : -expm1(-z) / z;
     const double phi_slope = z < SMALL ? z / 3.0 - 0.5 : (decay - phi) / z;
-    const double move = x - first, start = memory->branch_force[support];
+    const double move = x - first, start = memory->branch_force[place];
     return (response){.total = decay * start + k1 * phi * move,
                       .by_deformation = k1 * phi - decay * z_slope * start +
                                         (k1_slope * phi + k1 * phi_slope * z_slope) * move,
@@ -97,38 +99,52 @@ static response relax(const rc_laws *laws, const rc_pad_memory *memory, size_t s
 }
 
 /* The branch in slow motion, in which it is a dashpot. */
-static response creep(const rc_laws *laws, size_t support, double load, double rate)
+static response creep(const rc_laws *laws, const rc_support *own, double load, double rate)
 {
-    const double c1 = laws->pad_damping_factor[support] *
+    const double c1 = own->of[RC_PAD_DAMPING_FACTOR] *
                       rc_pad_branch(&laws->viscoelastic, load).damping;
     return (response){.total = c1 * rate, .by_deformation = 0.0, .by_rate = c1};
 }
 
-static response press_viscoelastic(const rc_laws *laws, const rc_pad_memory *memory,
-                                   size_t support, double deformation, double rate)
+static response press_viscoelastic(const rc_laws *laws, const rc_support *own,
+                                   const rc_pad_memory *memory, size_t place, double deformation,
+                                   double rate)
 {
-    const int loose = laws->fastened[support] == 0.0;
+    const int loose = own->of[RC_FASTENED] == 0.0;
     if (loose && !(deformation > 0.0))
         return nothing();
     const rc_jet rest = rc_pad_at_rest(&laws->viscoelastic, deformation);
-    const response branch = memory->step > 0.0 ? relax(laws, memory, support, deformation)
-                                               : creep(laws, support, rest.load, rate);
-    const double spring = laws->pad_stiffness_factor[support];
+    const response branch = memory->step > 0.0 ? relax(laws, own, memory, place, deformation)
+                                               : creep(laws, own, rest.load, rate);
+    const double spring = own->of[RC_PAD_STIFFNESS_FACTOR];
     const response whole = {.total = spring * rest.load + branch.total,
                             .by_deformation = spring * rest.tangent + branch.by_deformation,
                             .by_rate = branch.by_rate};
     return loose && whole.total < 0.0 ? nothing() : whole;
 }
 
-/* The increment of one component: what the linear track lacks. */
-static response respond(const rc_laws *laws, const rc_pad_memory *memory, size_t number, double x,
-                        double rate, int exact)
+/* Which support, from the beginning of the window, an active component is of. */
+static size_t place_of(const rc_laws *laws, const rc_active *active, size_t a)
 {
-    const size_t supports = laws->supports;
-    if (number >= supports) {
+    const size_t number = active->number[a];
+    return number >= laws->supports ? number - laws->supports : number;
+}
+
+static const rc_support *support_of(const rc_laws *laws, const rc_active *active, size_t place)
+{
+    return rc_support_at(&laws->line, active->first_support + (ptrdiff_t)place);
+}
+
+/* The increment of one component: what the linear track lacks. */
+static response respond(const rc_laws *laws, const rc_active *active, const rc_pad_memory *memory,
+                        size_t a, double x, double rate, int exact)
+{
+    const size_t place = place_of(laws, active, a);
+    const rc_support *own = support_of(laws, active, place);
+    if (active->number[a] >= laws->supports) {
         response pad = laws->pad == RC_VISCOELASTIC
-                           ? press_viscoelastic(laws, memory, number - supports, x, rate)
-                           : press_pad(laws, number - supports, x, rate);
+                           ? press_viscoelastic(laws, own, memory, place, x, rate)
+                           : press_pad(laws, own, x, rate);
         pad.total = pad.total - laws->pad_stiffness * x - laws->pad_damping * rate;
         pad.by_deformation -= laws->pad_stiffness;
         pad.by_rate -= laws->pad_damping;
@@ -139,7 +155,7 @@ static response respond(const rc_laws *laws, const rc_pad_memory *memory, size_t
                           .by_deformation = exact ? rc_ballast_tangent(&laws->plain, x, rate)
                                                   : rc_ballast_stiffness(&laws->plain, x),
                           .by_rate = rc_ballast_damping(&laws->plain, x)};
-    response ballast = press_ballast(laws, number, x, rate);
+    response ballast = press_ballast(laws, own, x, rate);
     ballast.total -= laws->ballast_stiffness * x + laws->ballast_damping * rate;
     ballast.by_deformation -= laws->ballast_stiffness;
     ballast.by_rate -= laws->ballast_damping;
@@ -155,7 +171,7 @@ void rc_law_forces(const rc_laws *laws, const rc_active *active, const rc_pad_me
         return;
     }
     for (size_t a = 0; a < active->count; ++a)
-        force[a] = respond(laws, memory, active->number[a], deformation[a], rate[a], 0).total;
+        force[a] = respond(laws, active, memory, a, deformation[a], rate[a], 0).total;
 }
 
 void rc_law_tangents(const rc_laws *laws, const rc_active *active, const rc_pad_memory *memory,
@@ -164,7 +180,7 @@ void rc_law_tangents(const rc_laws *laws, const rc_active *active, const rc_pad_
 {
     for (size_t a = 0; a < active->count; ++a) {
         const response at =
-            respond(laws, memory, active->number[a], deformation[a], rate[a], exact);
+            respond(laws, active, memory, a, deformation[a], rate[a], exact);
         stiffness[a] = at.by_deformation;
         damping[a] = at.by_rate;
     }
@@ -177,13 +193,14 @@ void rc_law_memories(const rc_laws *laws, const rc_active *active, const rc_pad_
     for (size_t a = 0; a < active->count; ++a) {
         if (active->number[a] < laws->supports)
             continue;
-        const size_t support = active->number[a] - laws->supports;
-        const double x = compress(laws, support, deformation[a]);
+        const size_t place = place_of(laws, active, a);
+        const rc_support *own = support_of(laws, active, place);
+        const double x = compress(own, deformation[a]);
         const double load = rc_pad_at_rest(&laws->viscoelastic, x).load;
-        branch_force[support] = memory->step > 0.0 ? relax(laws, memory, support, x).total
-                                                   : creep(laws, support, load, rate[a]).total;
-        compression[support] = x;
-        known[support] = 1.0;
+        branch_force[place] = memory->step > 0.0 ? relax(laws, own, memory, place, x).total
+                                                 : creep(laws, own, load, rate[a]).total;
+        compression[place] = x;
+        known[place] = 1.0;
     }
 }
 
@@ -192,4 +209,5 @@ void rc_free_laws(rc_laws *laws)
     rc_free_curve(&laws->bed.curve);
     rc_free_curve(&laws->spring.curve);
     rc_free_preloaded_pad(&laws->viscoelastic);
+    rc_free_supports(&laws->line);
 }

@@ -4,6 +4,7 @@
 #define RC_LAWS_H
 
 #include "preloaded_pad.h"
+#include "support_line.h"
 #include "supports.h"
 
 typedef enum {
@@ -21,9 +22,7 @@ typedef struct {
     rc_preloaded_pad viscoelastic;
     double ballast_stiffness, ballast_damping, pad_stiffness, pad_damping; /* linear */
     int tangent_damping, pulls;
-    /* of every support, see SupportFactors of the twin */
-    const double *pad_stiffness_factor, *pad_damping_factor, *ballast_stiffness_factor;
-    const double *ballast_damping_factor, *gap, *fastened;
+    rc_support_line line;
 } rc_laws;
 
 /* What viscoelastic pads remember, (supports) each, and the step that begins with it. */

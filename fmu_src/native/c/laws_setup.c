@@ -14,27 +14,65 @@ static int is_csv(const char *text)
     return end[0] == '.' && (end[1] | 32) == 'c' && (end[2] | 32) == 's' && (end[3] | 32) == 'v';
 }
 
-static int all_are(const double *values, size_t count, double nominal)
+static int pads_are_alike(const rc_laws *laws)
 {
-    for (size_t i = 0; i < count; ++i)
-        if (values[i] != nominal)
-            return 0;
-    return 1;
+    return rc_are_alike(&laws->line, RC_PAD_STIFFNESS_FACTOR, RC_BALLAST_STIFFNESS_FACTOR) &&
+           rc_are_alike(&laws->line, RC_FASTENED, RC_FASTENED + 1);
 }
 
-/* Refuses factors and gaps that are no numbers of at least 0. */
-static rc_status check_supports(rc_model *model, size_t supports)
+static int beds_are_alike(const rc_laws *laws)
 {
-    static const size_t groups[] = {PAD_STIFFNESS_FACTOR, PAD_DAMPING_FACTOR,
-                                    BALLAST_STIFFNESS_FACTOR, BALLAST_DAMPING_FACTOR, SUPPORT_GAP};
-    for (size_t g = 0; g < sizeof groups / sizeof groups[0]; ++g)
-        for (size_t s = 0; s < supports; ++s) {
-            const double value = rc_values(model, groups[g])[s];
+    return rc_are_alike(&laws->line, RC_BALLAST_STIFFNESS_FACTOR, RC_FASTENED);
+}
+
+/* The value of a property of a support that the parameters give, counted from 0. */
+static double given(rc_model *model, size_t property, size_t support)
+{
+    return rc_values(model, RC_FIRST_SUPPORT_PROPERTY + property)[support];
+}
+
+/* Supports of the parameters support[#].*; none where all are nominal. */
+static rc_status take_supports(rc_model *model, const rc_basis *basis, rc_support_line *line)
+{
+    int differ = 0;
+    for (size_t p = 0; p < RC_PROPERTY_COUNT; ++p)
+        for (size_t s = 0; s < basis->supports; ++s) {
+            const double value = given(model, p, s);
             if (!(isfinite(value) && value >= 0.0))
                 return rc_fail(model, RC_ERROR, "track: %s = %g of support %zu must be a finite "
                                                 "number, at least 0",
-                               strchr(model->groups[groups[g]].name, '.') + 1, value, s + 1);
+                               RC_PROPERTIES[p].name, value, s + 1);
+            differ |= value != RC_PROPERTIES[p].nominal;
         }
+    if (!differ)
+        return RC_OK;
+    if (!rc_claim_supports(line, basis->supports))
+        return rc_fail(model, RC_ERROR, "there is not enough memory for the supports");
+    for (size_t s = 0; s < basis->supports; ++s)
+        for (size_t p = 0; p < RC_PROPERTY_COUNT; ++p)
+            line->known[s].of[p] = given(model, p, s);
+    return RC_OK;
+}
+
+/* Supports one by one, or of a table. */
+static rc_status read_supports(rc_model *model, const rc_basis *basis, rc_support_line *line)
+{
+    const char *path = rc_text(model, SUPPORTS);
+    const int repeat = *rc_values(model, SUPPORTS_REPEAT) != 0.0;
+    const int endless = *rc_values(model, ENDLESS) != 0.0;
+    if (take_supports(model, basis, line) != RC_OK)
+        return RC_ERROR;
+    if (path[0] == '\0')
+        return repeat ? rc_fail(model, RC_ERROR, "track: supports_repeat is true, but supports names "
+                                                 "no table that could be repeated")
+                      : RC_OK;
+    if (line->count > 0)
+        return rc_fail(model, RC_ERROR, "track: supports names the table %s, but support[i].* are "
+                                        "given, too; leave one of the two out", path);
+    if (!rc_read_supports(line, path, basis->spacing, endless ? 0 : basis->supports, model->message,
+                          RC_MESSAGE_SIZE))
+        return RC_ERROR;
+    line->repeat = repeat;
     return RC_OK;
 }
 
@@ -80,9 +118,7 @@ static rc_status read_ballast(rc_model *model, rc_laws *laws)
     if (polynomial && !(isfinite(law->alpha) && isfinite(law->beta) && isfinite(law->delta)))
         return rc_fail(model, RC_ERROR, "ballast: alpha = %g, beta = %g, delta = %g must be finite "
                                         "numbers", law->alpha, law->beta, law->delta);
-    const int uniform = all_are(laws->ballast_stiffness_factor, laws->supports, 1.0) &&
-                        all_are(laws->ballast_damping_factor, laws->supports, 1.0) &&
-                        all_are(laws->gap, laws->supports, 0.0);
+    const int uniform = beds_are_alike(laws);
     laws->ballast = !(uniform && laws->pulls)              ? RC_TOTAL
                     : linear                               ? RC_NO_INCREMENT
                     : polynomial && !laws->tangent_damping ? RC_PLAIN
@@ -111,12 +147,9 @@ static rc_status read_pad_table(rc_model *model, rc_laws *laws, const char *path
 static rc_status read_pads(rc_model *model, rc_laws *laws)
 {
     const char *path = rc_text(model, PAD);
-    const int uniform = all_are(laws->pad_stiffness_factor, laws->supports, 1.0) &&
-                        all_are(laws->pad_damping_factor, laws->supports, 1.0) &&
-                        all_are(laws->fastened, laws->supports, 1.0);
     laws->spring =
         (rc_characteristic){.kind = RC_LINEAR, .stiffness = laws->pad_stiffness};
-    laws->pad = uniform ? RC_NO_INCREMENT : RC_TOTAL;
+    laws->pad = pads_are_alike(laws) ? RC_NO_INCREMENT : RC_TOTAL;
     if (strcmp(path, "linear") == 0)
         return RC_OK;
     if (is_csv(path))
@@ -128,16 +161,7 @@ static rc_status read_pads(rc_model *model, rc_laws *laws)
 static rc_status check_track(rc_model *model, const rc_track *track)
 {
     const rc_laws *laws = &track->laws;
-    const int beds_alike = all_are(laws->ballast_stiffness_factor, laws->supports, 1.0) &&
-                           all_are(laws->ballast_damping_factor, laws->supports, 1.0) &&
-                           all_are(laws->gap, laws->supports, 0.0);
-    const int pads_alike = all_are(laws->pad_stiffness_factor, laws->supports, 1.0) &&
-                           all_are(laws->pad_damping_factor, laws->supports, 1.0) &&
-                           all_are(laws->fastened, laws->supports, 1.0);
-    if (*rc_values(model, ENDLESS) != 0.0 && !(beds_alike && pads_alike))
-        return rc_fail(model, RC_ERROR, "track: endless is true, but its supports differ; leave "
-                                        "one of the two out");
-    if (track->basis.sleeper_shape != NULL && !(beds_alike && laws->pulls))
+    if (track->basis.sleeper_shape != NULL && !(beds_are_alike(laws) && laws->pulls))
         return rc_fail(model, RC_ERROR, "track: sleepers bend, but their ballast differs or does "
                                         "not pull; leave one of the two out");
     return RC_OK;
@@ -152,14 +176,8 @@ rc_status rc_read_laws(rc_model *model, rc_track *track)
                       .ballast_stiffness = basis->ballast_stiffness,
                       .ballast_damping = basis->ballast_damping,
                       .pad_stiffness = basis->pad_stiffness,
-                      .pad_damping = basis->pad_damping,
-                      .pad_stiffness_factor = rc_values(model, PAD_STIFFNESS_FACTOR),
-                      .pad_damping_factor = rc_values(model, PAD_DAMPING_FACTOR),
-                      .ballast_stiffness_factor = rc_values(model, BALLAST_STIFFNESS_FACTOR),
-                      .ballast_damping_factor = rc_values(model, BALLAST_DAMPING_FACTOR),
-                      .gap = rc_values(model, SUPPORT_GAP),
-                      .fastened = rc_values(model, FASTENED)};
-    if (check_supports(model, basis->supports) != RC_OK || read_ballast(model, laws) != RC_OK ||
+                      .pad_damping = basis->pad_damping};
+    if (read_supports(model, basis, &laws->line) != RC_OK || read_ballast(model, laws) != RC_OK ||
         read_pads(model, laws) != RC_OK) {
         rc_free_laws(laws);
         return RC_ERROR;

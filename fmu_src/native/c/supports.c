@@ -91,6 +91,7 @@ void rc_copy_active(rc_active *to, const rc_active *from)
 {
     to->count = from->count;
     to->stride = from->stride;
+    to->first_support = from->first_support;
     memcpy(to->number, from->number, from->count * sizeof(size_t));
     memcpy(to->rows, from->rows, from->count * sizeof(const double *));
 }

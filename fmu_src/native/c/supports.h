@@ -24,6 +24,7 @@ double rc_ballast_tangent(const rc_ballast_law *law, double deformation, double 
 /* Components whose increments are accounted for, in ascending order. */
 typedef struct {
     size_t count, stride;
+    ptrdiff_t first_support; /* how many supports there are before the one of number 0 */
     size_t *number;      /* among all: ballast from 0 on, then pads */
     const double **rows; /* their modal deformation */
 } rc_active;

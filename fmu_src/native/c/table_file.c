@@ -42,8 +42,26 @@ static char *read_file(const char *path, size_t *length)
     return text;
 }
 
-/* Whether the cell [from, to) is a decimal number. */
-static int parse_number(const char *from, const char *to, double *value)
+char *rc_read_text(const char *path, char *message, size_t room)
+{
+    size_t length;
+    char *text = read_file(path, &length);
+    if (text == NULL) {
+        snprintf(message, room, "table %s: cannot be read", path);
+        return NULL;
+    }
+    if (strlen(text) < length) {
+        snprintf(message, room, "table %s: byte %zu is zero, which is no text; save the table as "
+                                "UTF-8", path, strlen(text) + 1);
+        free(text);
+        return NULL;
+    }
+    const size_t mark = strncmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+    memmove(text, text + mark, length - mark + 1);
+    return text;
+}
+
+int rc_parse_number(const char *from, const char *to, double *value)
 {
     char cell[CELL];
     from += strspn(from, BLANK);
@@ -82,7 +100,7 @@ static row split(const char *from, const char *to)
         if (end > to)
             end = to;
         double value = 0.0;
-        const int number = parse_number(from, end, &value);
+        const int number = rc_parse_number(from, end, &value);
         if (found.cells < COLUMNS)
             found.values[found.cells] = value;
         found.numbers += (size_t)number;
@@ -92,7 +110,7 @@ static row split(const char *from, const char *to)
     return found;
 }
 
-static size_t count_lines(const char *text)
+size_t rc_count_lines(const char *text)
 {
     size_t lines = 1;
     for (; *text != '\0'; ++text)
@@ -165,21 +183,11 @@ static int check(const rc_table *table, const rc_table_kind *kind, char *message
 int rc_read_table(rc_table *table, const char *path, const rc_table_kind *kind, char *message,
                   size_t room)
 {
-    size_t length;
-    char *text = read_file(path, &length);
+    char *text = rc_read_text(path, message, room);
     memset(table, 0, sizeof *table);
-    if (text == NULL) {
-        snprintf(message, room, "table %s: cannot be read", path);
+    if (text == NULL)
         return 0;
-    }
-    if (strlen(text) < length) {
-        snprintf(message, room, "table %s: byte %zu is zero, which is no text; save the table as "
-                                "UTF-8", path, strlen(text) + 1);
-        free(text);
-        return 0;
-    }
-    const char *content = strncmp(text, "\xEF\xBB\xBF", 3) == 0 ? text + 3 : text;
-    const size_t lines = count_lines(content);
+    const size_t lines = rc_count_lines(text);
     table->x = malloc(sizeof(double) * COLUMNS * lines);
     table->columns = FEWEST_COLUMNS;
     int good = 0;
@@ -189,7 +197,7 @@ int rc_read_table(rc_table *table, const char *path, const rc_table_kind *kind, 
         table->y = table->x + lines;
         table->third = table->y + lines;
         table->fourth = table->third + lines;
-        good = take_rows(table, content, path, kind, message, room) &&
+        good = take_rows(table, text, path, kind, message, room) &&
                check(table, kind, message, room);
     }
     free(text);

@@ -26,6 +26,14 @@ typedef struct {
 int rc_read_table(rc_table *table, const char *path, const rc_table_kind *kind, char *message,
                   size_t room);
 
+/* The text of a file, without a byte order mark, to be freed; NULL and a sentence if it is none. */
+char *rc_read_text(const char *path, char *message, size_t room);
+
+size_t rc_count_lines(const char *text);
+
+/* Whether [from, to), but for white space, is a decimal number, with a point whatever the locale. */
+int rc_parse_number(const char *from, const char *to, double *value);
+
 void rc_free_table(rc_table *table);
 
 #endif

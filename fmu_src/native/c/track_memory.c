@@ -178,6 +178,7 @@ void rc_choose_supports(rc_track *track, const rc_track_state *state, const doub
     const double begin = rc_window_position(&track->basis, state);
     for (size_t i = 0; i < track->basis.wheels; ++i)
         track->inside[i] = positions[i] - begin;
+    track->active.first_support = (ptrdiff_t)*state->offset;
     const int ballast = track->laws.ballast != RC_NO_INCREMENT;
     const int pads = track->laws.pad != RC_NO_INCREMENT;
     if (ballast || pads)

@@ -39,9 +39,6 @@ rc_status rc_prepare_track(rc_model *model, rc_track *track)
     track->endless = *rc_values(model, ENDLESS) != 0.0;
     if (rc_read_laws(model, track) != RC_OK)
         return RC_ERROR;
-    if (track->endless && track->basis.sleeper_shape != NULL)
-        return rc_fail(model, RC_ERROR,
-                       "track: endless is true, but a track of sleepers that bend cannot be");
     if (rc_claim_track(model, track) != RC_OK)
         return RC_ERROR;
     for (size_t k = 0; k < track->basis.gauges; ++k) {

@@ -13,11 +13,14 @@ enum {
     SLEEPER_SHEAR_STIFFNESS, SLEEPER_MASS_PER_LENGTH, SLEEPER_ROTARY_INERTIA, SLEEPER_ELEMENTS,
     BALLAST, BALLAST_ALPHA, BALLAST_BETA, BALLAST_DELTA,
     MODE_PAIRS, RESIDUAL_FLEXIBILITY, SUPPORTS_PER_WHEEL, INITIAL_SPEED, ENDLESS,
-    BALLAST_SLOPE, BALLAST_TANGENT_DAMPING, BALLAST_PULLS, PAD, CLIP_PRELOAD,
+    BALLAST_SLOPE, BALLAST_TANGENT_DAMPING, BALLAST_PULLS, PAD, CLIP_PRELOAD, SUPPORTS, SUPPORTS_REPEAT,
     PAD_STIFFNESS_FACTOR, PAD_DAMPING_FACTOR, BALLAST_STIFFNESS_FACTOR, BALLAST_DAMPING_FACTOR,
     SUPPORT_GAP, FASTENED, GAUGE_POSITION,
     RC_TRACK_PARAMETER_COUNT
 };
+
+/* Behind it groups are in the order of rc_property. */
+#define RC_FIRST_SUPPORT_PROPERTY PAD_STIFFNESS_FACTOR
 
 #define RC_TRACK_PARAMETERS                                                                       \
     [BENDING_STIFFNESS] = {"bending_stiffness", RC_REAL, RC_CONSTANT, RC_ONE},                     \
@@ -53,6 +56,8 @@ enum {
     [BALLAST_PULLS] = {"ballast_pulls", RC_BOOLEAN, RC_PARAMETER, RC_ONE},                         \
     [PAD] = {"pad", RC_TEXT, RC_PARAMETER, RC_ONE},                                                \
     [CLIP_PRELOAD] = {"clip_preload", RC_REAL, RC_PARAMETER, RC_ONE},                              \
+    [SUPPORTS] = {"supports", RC_TEXT, RC_PARAMETER, RC_ONE},                                      \
+    [SUPPORTS_REPEAT] = {"supports_repeat", RC_BOOLEAN, RC_PARAMETER, RC_ONE},                     \
     [PAD_STIFFNESS_FACTOR] = {"support[#].pad_stiffness_factor", RC_REAL, RC_PARAMETER,            \
                               RC_SUPPORTS},                                                        \
     [PAD_DAMPING_FACTOR] = {"support[#].pad_damping_factor", RC_REAL, RC_PARAMETER, RC_SUPPORTS},  \

@@ -7,10 +7,11 @@
 
 #define RC_FARTHEST 1e9 /* m; beyond it positions lose the digits of a step */
 
-/* How many numbers there are for every field of displacements: rail nodes, then sleepers. */
+/* How many numbers there are for every field of displacements: rail nodes, then all degrees of
+ * freedom of the sleepers. */
 static inline size_t rc_field_size(const rc_basis *basis)
 {
-    return 2 * basis->nodes + basis->supports;
+    return 2 * basis->nodes + basis->supports * basis->sleeper_size;
 }
 
 /* Where it begins [m]. */

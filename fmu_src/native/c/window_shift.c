@@ -20,31 +20,55 @@ static field view_field(const rc_track *track)
                    track->field + 3 * size};
 }
 
+/* The modal row of a place in a field. */
+static const double *field_shape(const rc_basis *basis, size_t place)
+{
+    const size_t first = 2 * basis->nodes;
+    return place < first || basis->bent_shape == NULL
+               ? rc_shape(basis, place)
+               : basis->bent_shape + (place - first) * basis->length;
+}
+
+/* Adds the field of forces on coordinates. */
+static void add_field(const rc_basis *basis, double *out, const size_t *coordinate,
+                      const double *loads, size_t count)
+{
+    const size_t first = 2 * basis->nodes, all = basis->supports * basis->sleeper_size;
+    const double *rail[4], *sleepers[4];
+    for (size_t k = 0; k < count; ++k) { /* the matrix is symmetric */
+        rail[k] = rc_flexibility(basis, coordinate[k]);
+        sleepers[k] = basis->bent_flexibility == NULL
+                          ? rail[k] + first
+                          : basis->bent_flexibility + coordinate[k] * all;
+    }
+    rc_add_combination(out, rail, loads, count, first);
+    rc_add_combination(out + first, sleepers, loads, count, all);
+}
+
 /* Displacements of all nodes and sleepers by the forces on them, without modes. */
 static void yield_statically(const rc_track *track, const rc_track_state *state, double *out)
 {
     const rc_basis *basis = &track->basis;
-    const size_t size = rc_field_size(basis);
-    memset(out, 0, size * sizeof(double));
+    memset(out, 0, rc_field_size(basis) * sizeof(double));
     for (size_t i = 0; i < basis->wheels; ++i) {
         const rc_rail_point *wheel = &track->points[i];
-        const double *rows[4];
+        size_t coordinates[4];
         double loads[4];
         for (size_t k = 0; k < 4; ++k) {
-            rows[k] = rc_flexibility(basis, rc_first(wheel) + k); /* the matrix is symmetric */
+            coordinates[k] = rc_first(wheel) + k;
             loads[k] = state->force[i] * wheel->shape[k];
         }
-        rc_add_combination(out, rows, loads, 4, size);
+        add_field(basis, out, coordinates, loads, 4);
     }
     for (size_t s = 0; s < rc_increments(&track->laws); ++s) {
-        const double *row = rc_flexibility(basis, rc_component(basis, s));
+        const size_t coordinate = rc_component(basis, s);
         const double load = -state->increment[s];
         if (load != 0.0)
-            rc_add_combination(out, &row, &load, 1, size);
+            add_field(basis, out, &coordinate, &load, 1);
     }
 }
 
-/* Fills in displacement and velocity of `count` coordinates from `from` on, at `to`. */
+/* Fills in displacement and velocity of `count` places from `from` on, at `to`. */
 static void fill(const rc_track *track, const field *at, size_t from, size_t to, size_t count)
 {
     const rc_basis *basis = &track->basis;
@@ -54,7 +78,7 @@ static void fill(const rc_track *track, const field *at, size_t from, size_t to,
         const double *shape[BLOCK];
         double products[2 * BLOCK];
         for (size_t r = 0; r < rows; ++r)
-            shape[r] = rc_shape(basis, from + done + r);
+            shape[r] = field_shape(basis, from + done + r);
         rc_products(shape, rows, motion, 2, basis->length, products, 2);
         for (size_t r = 0; r < rows; ++r) {
             at->displacement[to + done + r] = products[2 * r] + at->momentum[from + done + r];
@@ -80,13 +104,14 @@ void rc_shift_field(rc_track *track, rc_track_state *state, ptrdiff_t bays)
     const size_t by = (size_t)(bays < 0 ? -bays : bays);
     const size_t per_bay = basis->elements / (basis->supports + 1);
     const size_t nodes = basis->nodes - by * per_bay; /* by is less than the bays */
-    const size_t sleepers = basis->supports - by, gone = 2 * by * per_bay;
-    const size_t first = rc_ballast(basis, 0);
+    const size_t size = basis->sleeper_size, left = by * size;
+    const size_t sleepers = (basis->supports - by) * size, gone = 2 * by * per_bay;
+    const size_t first = 2 * basis->nodes;
     memset(at.displacement, 0, 2 * rc_field_size(basis) * sizeof(double)); /* and velocities */
     yield_statically(track, state, at.momentum);
     rc_view_motion(basis, state, track->row, track->other_row);
     fill(track, &at, bays < 0 ? 0 : gone, bays < 0 ? gone : 0, 2 * nodes);
-    fill(track, &at, first + (bays < 0 ? 0 : by), first + (bays < 0 ? by : 0), sleepers);
+    fill(track, &at, first + (bays < 0 ? 0 : left), first + (bays < 0 ? left : 0), sleepers);
     for (size_t side = 0; side < 2; ++side) /* the ends are clamped */
         for (size_t k = 0; k < 2; ++k) {
             const size_t end = (side == 0 ? 0 : 2 * (basis->nodes - 1)) + k;
@@ -101,12 +126,32 @@ void rc_shift_field(rc_track *track, rc_track_state *state, ptrdiff_t bays)
     shift(state->known, basis->supports, bays);
 }
 
+/* What `weigh` does for a sleeper, its places beginning at `below`, under the rail node at `above`. */
+static void weigh_sleeper(const rc_basis *basis, const field *at, size_t below, size_t above)
+{
+    const size_t size = basis->sleeper_size, seat = below + basis->seat;
+    const double *x = at->displacement + below, *v = at->velocity + below;
+    const double pad = basis->pad_damping * (at->displacement[above] - at->displacement[seat]);
+    for (size_t i = 0; i < size; ++i) {
+        const double *mass = basis->sleeper_mass + i * size, *bed = basis->sleeper_bed + i * size;
+        double momentum = 0.0, inertia = 0.0, pressed = 0.0;
+        for (size_t j = 0; j < size; ++j) {
+            momentum += mass[j] * v[j];
+            inertia += mass[j] * x[j];
+            pressed += bed[j] * x[j];
+        }
+        at->momentum[below + i] = momentum + basis->ballast_damping * pressed;
+        at->inertia[below + i] = inertia;
+    }
+    at->momentum[above] += pad;
+    at->momentum[seat] -= pad;
+}
+
 /* Mass times displacements and velocities, and damping times displacements. */
 static void weigh(const rc_track *track, const field *at)
 {
     const rc_basis *basis = &track->basis;
-    const double *mass = basis->inertia, sleeper = basis->inertia[RC_INERTIA_COUNT - 1];
-    const size_t per_bay = basis->elements / (basis->supports + 1);
+    const double *mass = basis->inertia;
     memset(at->momentum, 0, 2 * rc_field_size(basis) * sizeof(double)); /* and inertia */
     for (size_t e = 0; e < basis->elements; ++e)
         for (size_t i = 0; i < 4; ++i)
@@ -114,14 +159,8 @@ static void weigh(const rc_track *track, const field *at)
                 at->momentum[2 * e + i] += mass[4 * i + j] * at->velocity[2 * e + j];
                 at->inertia[2 * e + i] += mass[4 * i + j] * at->displacement[2 * e + j];
             }
-    for (size_t s = 0; s < basis->supports; ++s) {
-        const size_t below = rc_ballast(basis, s), above = 2 * (s + 1) * per_bay;
-        const double x = at->displacement[below];
-        const double pad = basis->pad_damping * (at->displacement[above] - x);
-        at->momentum[above] += pad;
-        at->momentum[below] = sleeper * at->velocity[below] + basis->ballast_damping * x - pad;
-        at->inertia[below] = sleeper * x;
-    }
+    for (size_t s = 0; s < basis->supports; ++s)
+        weigh_sleeper(basis, at, 2 * basis->nodes + s * basis->sleeper_size, rc_above(basis, s));
 }
 
 void rc_project_field(rc_track *track, rc_track_state *state)
@@ -136,7 +175,7 @@ void rc_project_field(rc_track *track, rc_track_state *state)
     for (size_t done = 0; done < size; done += BLOCK) {
         const size_t count = size - done < BLOCK ? size - done : BLOCK;
         for (size_t r = 0; r < count; ++r)
-            rows[r] = rc_shape(basis, done + r);
+            rows[r] = field_shape(basis, done + r);
         rc_add_combination(state->modal, rows, at.momentum + done, count, length);
         rc_add_combination(track->row, rows, at.inertia + done, count, length);
     }
