@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING
 
 from .master_section import DEFAULT_MAX_STEP, Master
 from .sections import Flat
+from .wheel_sections import WheelFlat
 
 if TYPE_CHECKING:
     from .scenario import Scenario
     from .signals import ContactSide
 
 KINKED = ("parabola", "cusp", "chord")
-"""Shapes of flats with a kink, at their tip or at their edges."""
+"""Shapes of flats and other dents with a kink, at their tip or at their edges."""
 
 PAIRS_PER_BAY_AT_KINKS = 8
 """Mode pairs per bay that resolve a kink; as verified, see docs/verification.md."""
@@ -32,13 +33,12 @@ def notes(scenario: Scenario, contact: ContactSide = "vehicle") -> list[str]:
     if depth_is_given and flat.is_measured:
         found.append(f"flat.depth has no effect: {flat.shape} brings the depth")
     pairs = PAIRS_PER_BAY_AT_KINKS * scenario.track.bays
-    if flat.shape in KINKED and scenario.track.retained_pairs < min(
-        pairs, scenario.track.degrees_of_freedom
-    ):
+    kinked = _kinked(scenario)
+    if kinked and scenario.track.retained_pairs < min(pairs, scenario.track.degrees_of_freedom):
         found.append(
-            f"the {flat.shape} has a kink, which excites the rail above the frequencies of its "
+            f"{kinked[0]} has a kink, which excites the rail above the frequencies of its "
             f"{scenario.track.retained_pairs} mode pairs: just behind it the contact force may be "
-            f"off by 10 to 17 % of the static load, its peak by 5 %; take track.mode_pairs={pairs}"
+            f"off by 9 to 17 % of the static load, its peak by 5 %; take track.mode_pairs={pairs}"
         )
     step = master.step or master.largest_step
     if step > DEFAULT_MAX_STEP:
@@ -59,3 +59,13 @@ def notes(scenario: Scenario, contact: ContactSide = "vehicle") -> list[str]:
                 "without error control unless master.algorithm is newton"
             )
     return found
+
+
+def _kinked(scenario: Scenario) -> list[str]:
+    """Name the flat and the dents that have a kink."""
+    shape = scenario.flat.shape
+    return [f"the {shape}"] * (shape in KINKED) + [
+        f"the {item.kind} of wheel {item.wheel}"
+        for item in scenario.wheel_defect
+        if isinstance(item, WheelFlat) and item.shape in KINKED
+    ]

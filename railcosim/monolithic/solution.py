@@ -30,6 +30,7 @@ from .modal_track import ModalTrack
 from .observation import Observer
 from .rail_places import RailPlaces
 from .scenario_vehicle import vehicle_of
+from .standing import stand
 from .static_start import static_start
 from .support_laws import support_laws
 from .system import ContactForm, CoupledSystem
@@ -153,7 +154,7 @@ def make_system(
 
     The track starts in the static equilibrium of its full model, moving along, with relaxed pads
     and, as in the FMUs, with nominal dampers: sleepers that hang free are long in forgetting those.
-    The vehicle starts level, without vertical velocity, every wheel under its static load.
+    The vehicle starts in its own equilibrium on that; see `stand`.
 
     Parameters
     ----------
@@ -182,26 +183,32 @@ def make_system(
         full.wheels(places.elements, weights).output[:, : matrices.numbering.size]
         for weights in (places.shapes(0.0), places.slopes(0.0))
     )
-    displacement, velocity = static_start(
-        nominal,
-        support_laws(scenario, held.keys, all_in_matrices=False),
-        load=load * shapes.sum(axis=0),
-        load_rate=load * course.speed(0.0) * slopes.sum(axis=0),
-    )
     contact = HertzLaw(coefficient=scenario.vehicle.hertz_coefficient)
+    vehicle = vehicle_of(scenario)
+    at_supports = support_laws(scenario, held.keys, all_in_matrices=False)
+
+    def deflected(loads: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        rate = course.speed(0.0) * (loads @ slopes)
+        return static_start(nominal, at_supports, load=loads @ shapes, load_rate=rate)
+
+    standing = stand(
+        vehicle, contact, course, load=load, sag=lambda loads: shapes @ deflected(loads)[0]
+    )
     system = CoupledSystem(
         track=full if model == "full" else _modal(held.keys, matrices, laws),
-        vehicle=vehicle_of(scenario),
+        vehicle=vehicle,
         places=places,
         contact=contact,
         laws=laws,
         form=contact_form,
         static_load=load,
-        rest=shapes @ displacement + course.drops(0.0) + contact.compression(load),
+        rest=standing.rest,
     )
+    displacement, velocity = deflected(standing.loads)
     ports = port_incidence(matrices, pad_ports=laws.pads_have_ports)
     memory = laws.relaxed(ports.T @ displacement)
-    return system, system.at_rest(system.track.begin(displacement, velocity), memory)
+    own = system.track.begin(displacement, velocity)
+    return system, system.begin(own, standing.place, standing.rate, memory)
 
 
 def _modal(keys: Track, matrices: TrackMatrices, laws: SupportLaws) -> ModalTrack:

@@ -141,6 +141,18 @@ class SprungVehicle:
             self._answers @ (damping[:, None] * self._compressions),
         )
 
+    def riding(self, wheels: Array) -> Array:
+        """See `Vehicle.riding`."""
+        hubs = wheels if self._wheelset.spring is not None else wheels[:0]
+        if self._above is None:
+            return np.concatenate((wheels, hubs))
+        levers = self._above.levers
+        lines = [_line(*each) for each in zip(levers, wheels.reshape(levers.shape), strict=True)]
+        frames, pitches = np.array(lines).T
+        return np.concatenate(
+            (wheels, hubs, frames, pitches, _line(self._above.car_levers, frames))
+        )
+
     def ways_to_stops(self, place: Array) -> Array:
         """See `Vehicle.ways_to_stops`."""
         return self._springs.ways_to_stops(self._compressions @ place)
@@ -212,3 +224,8 @@ class SprungVehicle:
             scale[pitches] /= np.abs(self._above.levers).max(initial=1.0)
             scale[-1] /= np.abs(self._above.car_levers).max(initial=1.0)
         return scale, rate * scale
+
+
+def _line(levers: Array, heights: Array) -> tuple[float, float]:
+    """Mean and slope of the line of least squares, over levers with a mean of zero."""
+    return float(heights.mean()), float(np.linalg.pinv(levers[:, None])[0] @ heights)

@@ -84,8 +84,8 @@ class CoupledSystem:
         How the contact is written.
     static_load : float
         Of each wheel [N].
-    rest : ndarray, shape (wheels,)
-        Displacements of the wheels at the start, from which their coordinates count [m].
+    rest : float
+        Displacement of wheels from which their coordinates count [m].
     """
 
     track: LinearTrack
@@ -95,7 +95,7 @@ class CoupledSystem:
     laws: SupportLaws
     form: ContactForm
     static_load: float
-    rest: NDArray[np.float64]
+    rest: float
 
     @property
     def wheels(self) -> int:
@@ -139,18 +139,28 @@ class CoupledSystem:
         """Return the system with the wheels on the elements where they are at a time."""
         return replace(self, places=self.places.moved_to(time))
 
-    def at_rest(self, own: NDArray[np.float64], memory: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the state with the vehicle at rest at t = 0, under the static loads.
+    def begin(
+        self,
+        own: NDArray[np.float64],
+        place: NDArray[np.float64],
+        rate: NDArray[np.float64],
+        memory: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
+        """Return the state at t = 0, shape (size,).
 
         Parameters
         ----------
         own : ndarray, shape (s,)
             State of the track.
+        place, rate : ndarray, shape (c,)
+            Coordinates of the vehicle and their rates.
         memory : ndarray, shape (memories,)
             Of the laws.
         """
         state = np.zeros(self.size)
-        state[self.parts[0]], state[self.parts[-1]] = own, memory
+        for part, values in zip(self.parts, (own, place, rate), strict=False):
+            state[part] = values
+        state[self.parts[-1]] = memory
         if self.form == "constraint":
             under = self.track.wheels(self.places.elements, self.places.shapes(0.0))
             state[self.parts[3]] = under.output @ own
@@ -202,8 +212,7 @@ class CoupledSystem:
 
     def wheel_displacements(self, states: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the displacements of the wheels [m], shape (wheels,); or of states (size, n)."""
-        moved = states[self.parts[1]][: self.wheels]
-        return np.asarray((moved.T + self.rest).T)
+        return np.asarray(self.rest + states[self.parts[1]][: self.wheels])
 
     def gaps(self, time: float, state: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the gap between each wheel and the rail [m], minus the compression."""

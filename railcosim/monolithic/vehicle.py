@@ -1,8 +1,8 @@
 """What the coupled system asks of a vehicle, and rigid wheels that are nothing but masses.
 
-A vehicle has c coordinates, counted from where it is at rest at the start, downwards positive. The
-first w are those of what touches the rail. Each is pushed down by its static load less the contact
-force; all other static forces cancel.
+A vehicle has c coordinates, counted from static equilibrium on a level rail at the mean height that
+the wheels have at the start, downwards positive. The first w are those of what touches the rail.
+Each is pushed down by its static load less the contact force; all other static forces cancel.
 """
 
 from __future__ import annotations
@@ -59,6 +59,19 @@ class Vehicle(Protocol):
         """Return their derivatives by coordinates and by rates, shape (c, c) each."""
         ...
 
+    def riding(self, wheels: Array) -> Array:
+        """Return coordinates of bodies that ride on displaced wheels, shape (c,).
+
+        Each lies on the straight line of least squares through what bears it; with two wheels a
+        bogie and two bogies no spring is compressed then. Rates follow from rates likewise.
+
+        Parameters
+        ----------
+        wheels : ndarray, shape (wheels,)
+            Displacements of the wheels [m].
+        """
+        ...
+
     def ways_to_stops(self, place: Array) -> Array:
         """Return what changes sign where a bump stop is met or left [m], shape (stops,)."""
         ...
@@ -100,6 +113,10 @@ class RigidWheels:
         """See `Vehicle.tangent`."""
         del place, rate
         return self._nothing, self._nothing
+
+    def riding(self, wheels: Array) -> Array:
+        """Return the wheels: there are no bodies above."""
+        return wheels.copy()
 
     def ways_to_stops(self, place: Array) -> Array:
         """Return nothing: there are no stops."""

@@ -1,7 +1,7 @@
 import pytest
 
 from railcosim.notes import notes
-from railcosim.scenario_file import read_scenario
+from railcosim.scenario_file import from_toml, read_scenario
 
 
 @pytest.mark.parametrize(
@@ -29,6 +29,23 @@ def test_what_may_surprise_is_said(overrides, parts):
     said = notes(read_scenario(None, overrides))
     assert len(said) == len(parts)
     assert all(part in sentence for part, sentence in zip(parts, said, strict=True))
+
+
+@pytest.mark.parametrize(
+    ("defect", "said"),
+    [
+        ('kind = "spall"\nwheel = 2', ["the spall of wheel 2 has a kink"]),
+        ('kind = "flat"\nshape = "cusp"', ["the flat of wheel 1 has a kink"]),
+        ('kind = "flat"', []),
+        ('kind = "polygon"\norder = 5\namplitude = 1e-4', []),
+    ],
+)
+def test_every_dent_with_a_kink_needs_modes(defect, said):
+    found = notes(from_toml(f"[[wheel_defect]]\n{defect}"))
+    assert len(found) == len(said)
+    assert all(part in sentence for part, sentence in zip(said, found, strict=True))
+    enough = from_toml(f"[track]\nmode_pairs = 400\n[[wheel_defect]]\n{defect}")
+    assert notes(enough) == []
 
 
 def test_keys_without_effect_on_a_track_with_contacts_are_named():
