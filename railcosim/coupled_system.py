@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from typing import Literal
 
-    from build_fmus import FmuPaths
+    from fmu_src.building import FmuPaths
     from vehicle_fmu.speed import SpeedLaw
 
     from .scenario import Scenario
