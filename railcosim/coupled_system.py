@@ -111,19 +111,6 @@ def fmu_sources(
     )
 
 
-def connect(
-    scenario: Scenario,
-    paths: FmuPaths,
-    law: SpeedLaw,
-    *,
-    contact: ContactSide = "vehicle",
-    timeout: float | None = None,
-) -> System:
-    """Join track and vehicle; see `fmu_sources` and `join`."""
-    sources = fmu_sources(scenario, paths, law, contact=contact, timeout=timeout)
-    return join(sources, scenario, contact)
-
-
 def connections(scenario: Scenario, contact: ContactSide = "vehicle") -> list[Connection]:
     """Return positions and forces to the track, and rail displacements back.
 
