@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from .scenario import Scenario
     from .signals import ContactSide
-    from .surface_files import SurfaceFiles
+    from .surfaces.files import SurfaceFiles
 
 EXPLICIT_STEP = 1e-4
 """Step with contact on the track side, where the scenario leaves algorithm and step open [s]."""

@@ -21,11 +21,11 @@ from .coupled_system import (
 )
 from .errors import InputError, RunError
 from .evidence import keeping_evidence
+from .histories.record import recording
 from .input_tables import check_profiles
 from .motion import speed_law, travel_time
-from .passage_record import recording
 from .run_record import doubts, programs, statistics
-from .surface_tables import compose, written
+from .surfaces.tables import compose, written
 from .watched_control import WatchedControl
 
 if TYPE_CHECKING:

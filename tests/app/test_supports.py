@@ -15,7 +15,7 @@ from railcosim.pad_curves import pad_loops
 from railcosim.scenario_file import read_scenario
 from railcosim.start_values import track_values
 from railcosim.support_values import random_factors, support_properties, support_values
-from railcosim.surface_tables import write_supports
+from railcosim.surfaces.tables import write_supports
 from railcosim.track_data import is_linear
 from railcosim.variation import Variation
 

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from railcosim.figures.irregularity import draw_surfaces
 from railcosim.irregularity.bands import band_levels
 from railcosim.scenario_file import read_scenario
-from railcosim.surface_report import surface_numbers, surface_report
-from railcosim.surface_tables import compose
+from railcosim.surfaces.report import surface_numbers, surface_report
+from railcosim.surfaces.tables import compose
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
