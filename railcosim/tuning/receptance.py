@@ -14,12 +14,7 @@ from ..receptance.measured import log_residual
 from ..support_values import support_properties
 from ..track_data import track_parameters
 from .estimate import Estimate, covariance, half_width, rounded
-from .fit_checks import (
-    check_fit,
-    check_points,
-    check_scale,
-    root_mean_square,
-)
+from .fit_checks import check_fit, check_points, check_scale, root_mean_square
 from .support_receptance import SUPPORT_PARAMETERS, SupportReceptance
 
 if TYPE_CHECKING:
