@@ -17,7 +17,6 @@ from .support_values import support_properties
 from .surface_files import SurfaceFiles
 from .uneven_rail import compose_rail
 from .uneven_wheels import compose_treads
-from .variation import Variation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -76,7 +75,7 @@ def written(
     """
     named = scenario.vehicle.rail_irregularity
     rail = None if named else surfaces.rail
-    differing = scenario.track.endless and scenario.variation != Variation()
+    differing = scenario.track.endless and scenario.variation.is_any
     supports = scenario.track.supports if scenario.track.endless else ""
     if rail is None and not surfaces.treads and not differing:
         treads = ("",) * scenario.vehicle.wheels
