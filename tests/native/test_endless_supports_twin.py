@@ -153,6 +153,7 @@ def test_sleepers_that_bend_travel_with_the_window(track_pair, short_track):
         ("position;gap\n0.1;0\n", "names support 0 but the track has 11"),
         ("number,gap\n1,0\n1,0\n", "line 3: support 1 has a row already"),
         ("number,gap\n1.5,0\n", "number is 1.5, not a whole number"),
+        ("number,fastened\n3,0.5\n", "line 2: fastened is '0.5', neither 1 nor 0"),
         ("number,gap\n1\n", "line 2: has 1 values, not 2 as the first line"),
         ("number,gap\n1,0,\n", "line 2: has 3 values, not 2 as the first line"),
     ],
