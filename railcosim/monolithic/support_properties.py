@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy.sparse as sp
 
+from track_fmu.parameters import GRAVITY
+
 from ..errors import InputError
 from ..support_values import support_properties
 
@@ -77,6 +79,9 @@ class SupportProperties:
         Those factors.
     gap : ndarray
         Under the unloaded sleeper [m].
+    dead_load : ndarray
+        What the ballast bears of the weight of sleeper and rail, as far as it can lose it [N]; 0
+        under a gap.
     sleeper_lifts : ndarray of bool
         Whether the ballast lets go of a sleeper that rises.
     rail_lifts : ndarray of bool
@@ -90,6 +95,7 @@ class SupportProperties:
     ballast_stiffness: Array
     ballast_damping: Array
     gap: Array
+    dead_load: Array
     sleeper_lifts: NDArray[np.bool_]
     rail_lifts: NDArray[np.bool_]
 
@@ -108,12 +114,17 @@ def properties_of(scenario: Scenario, track: Track) -> SupportProperties:
     names = ("pad_stiffness", "pad_damping", "ballast_stiffness", "ballast_damping")
     factors = {name: given[f"{name}_factor"] for name in names}
     nominal = {name: np.full(len(factors[name]), getattr(track, name)) for name in names}
+    lifts = (given["gap"] > 0.0) | (not track.ballast_pulls)
+    mass = track.sleeper_mass * given["sleeper_mass_factor"]
+    mass += track.mass_per_length * track.sleeper_spacing
+    rests = lifts & (given["gap"] == 0.0) & (factors["ballast_stiffness"] > 0.0)
     return SupportProperties(
         nominal=LinearSupports(**nominal),
         own=LinearSupports(**{name: factors[name] * nominal[name] for name in names}),
         **factors,
         gap=given["gap"],
-        sleeper_lifts=(given["gap"] > 0.0) | (not track.ballast_pulls),
+        dead_load=np.where(rests, GRAVITY * mass, 0.0),
+        sleeper_lifts=lifts,
         rail_lifts=given["fastened"] == 0.0,
     )
 

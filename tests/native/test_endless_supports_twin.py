@@ -27,7 +27,8 @@ def supports(tmp_path):
     for number in random.permutation(60) + 1:
         if number % 7:
             factors = ",".join(f"{value:.6f}" for value in random.uniform(0.5, 2.0, 4))
-            lines.append(f"{number},{factors},{2e-4 * (number % 5 == 0)},{int(number % 6 > 0)}")
+            hangs = number % 5 == 0
+            lines.append(f"{number},{factors},{2e-4 * hangs},{int(hangs or number % 6 > 0)}")
     table.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return str(table)
 
