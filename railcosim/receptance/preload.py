@@ -41,7 +41,7 @@ class SupportTangent:
     incidence : (N, p) sparse array
         What deforms them.
     small : SmallMotion
-        Their springs, dampers and branches beyond the nominal ones.
+        Their springs, dampers, branches and masses beyond the nominal ones.
     """
 
     ports: IntArray
@@ -57,8 +57,9 @@ class SupportTangent:
         return np.asarray(spring * dashpot / np.where(spring > 0.0, spring + dashpot, 1.0))
 
     def dynamic_stiffness(self, omega: float) -> ComplexArray:
-        """Stiffness of springs, dampers and branches at an angular frequency [rad/s], (p,)."""
+        """Stiffness of all of it at an angular frequency [rad/s], ``k + i w c - w^2 m``, (p,)."""
         linear = self.small.stiffness + 1j * omega * self.small.damping
+        linear = linear - omega**2 * self.small.mass
         return np.asarray(linear + self.branches(omega))
 
 
@@ -101,7 +102,10 @@ def support_tangent(
         displacement, _ = static_start(matrices, laws, load=load, load_rate=np.zeros_like(load))
     small = _without_rounding(laws, laws.about_rest(incidence.T @ displacement))
     there = np.flatnonzero(
-        (small.stiffness != 0.0) | (small.damping != 0.0) | (small.branch_stiffness != 0.0)
+        (small.stiffness != 0.0)
+        | (small.damping != 0.0)
+        | (small.branch_stiffness != 0.0)
+        | (small.mass != 0.0)
     )
     if not len(there):
         return None
