@@ -10,6 +10,7 @@ import numpy as np
 from track_fmu.assembly import assemble
 
 from ..errors import InputError
+from ..input_tables import check_laws
 from ..monolithic.full_track import port_incidence
 from ..monolithic.static_start import static_start
 from ..monolithic.support_laws import SmallMotion, support_laws
@@ -85,10 +86,12 @@ def support_tangent(
     Raises
     ------
     InputError
-        For a table that cannot be used, or an unloaded track with things that can lift off.
+        For a table that cannot be used, laws that do not go together, or an unloaded track with
+        things that can lift off.
     RunError
         If there is no equilibrium.
     """
+    check_laws(scenario)
     laws = support_laws(scenario, scenario.track, all_in_matrices=False)
     if force == 0.0:
         _refuse_kinks(laws)

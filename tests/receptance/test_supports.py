@@ -183,6 +183,12 @@ def test_what_opens_has_no_receptance_without_a_preload(keys, sentence):
     assert np.isfinite(study(keys, preload=50e3).receptance(FREQUENCIES)).all()
 
 
+def test_what_the_simulation_refuses_has_no_receptance():
+    keys = ("track.sleeper=beam", "variation.sleeper_mass_deviation=0.2")
+    with pytest.raises(InputError, match="sleepers bend, but their masses differ"):
+        study(*keys).receptance(FREQUENCIES)
+
+
 def test_a_falling_law_has_no_receptance():
     """``30e6 x - 220e9 x^2 + 450e12 x^3`` falls from 0.10 to 0.23 mm."""
     keys = ("track.ballast_alpha=-220e9", "track.ballast_beta=450e12", "track.ballast_delta=0")
