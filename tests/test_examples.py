@@ -115,7 +115,7 @@ def largest(result, name):
 
 
 def test_worn_wheels():
-    """With all nodes, and no FMUs, the largest force is within 0.1 % (docs/verification.md)."""
+    """With all nodes and no FMUs all forces are within 0.6 kN (docs/verification.md)."""
     for result in on_both_sides("worn_wheels"):
         assert largest(result, "contact_force") == pytest.approx(263.48e3, rel=5e-4)
         assert float(result["contact_force"].min()) == pytest.approx(27.09e3, abs=50.0)
