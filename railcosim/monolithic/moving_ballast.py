@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from .laws import NEARLY_NOTHING, ONSET
+from .laws import NEARLY_NOTHING
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -72,11 +72,3 @@ class MovingBallast:
         bend = np.where(near, 0.0, (curvature - 2.0 * by_way) / way)
         share = np.where(secant > 0.0, self.mass / self.stiffness, 0.0)
         return Mass(share * secant, share * by_way, share * bend)
-
-    def at_rest(self, sinking: Array) -> Array:
-        """Return the mass that follows small motions about a state of rest [kg], (supports,).
-
-        Where a sleeper can lift off it sets in with the damping, over `ONSET`.
-        """
-        there = np.clip((sinking - self.supports.gap) / ONSET, 0.0, 1.0)
-        return np.where(self.supports.sleeper_lifts, there, 1.0) * self.at(sinking).mass

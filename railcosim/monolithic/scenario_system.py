@@ -123,12 +123,6 @@ def _check_masses(track: Track, laws: SupportLaws, model: Model) -> None:
     """Refuse ballast that moves along where the equations do not hold it."""
     if track.ballast_mass == 0.0:
         return
-    if laws.supports.sleeper_lifts.any():
-        raise InputError(
-            f"track.ballast_mass is {track.ballast_mass:g} kg and a sleeper can lift off its "
-            "ballast, but the monolithic solution holds masses that are never left behind: set "
-            "track.ballast_mass to 0, or let the ballast pull and close the gaps"
-        )
     if model == "modal" and (laws.moving.varies or track.sleeper == "beam"):
         what = "grows" if laws.moving.varies else "bends with the sleepers"
         raise InputError(

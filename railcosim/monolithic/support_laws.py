@@ -134,7 +134,7 @@ class SupportLaws:
         still, count = np.zeros_like(deformation), len(self.supports.gap)
         force, stiffness, damping = self.tangent(deformation, still, self.relaxed(deformation))
         branch_stiffness, branch_damping, mass = np.zeros((3, len(force)))
-        mass[:count] = self.supports.own.sleeper_mass + self.moving.at_rest(deformation[:count])
+        mass[:count] = self.supports.own.sleeper_mass + self.moving.at(deformation[:count]).mass
         mass[:count] -= self.base.mass
         if self.pads_have_ports:
             pads = slice(count, None)
@@ -178,9 +178,15 @@ def support_laws(
     Raises
     ------
     InputError
-        For a table that cannot be used.
+        For a table that cannot be used, or ballast with a mass that a sleeper can lift off.
     """
     supports = properties_of(scenario, track, first_bay=first_bay)
+    if track.ballast_mass > 0.0 and supports.sleeper_lifts.any():
+        raise InputError(
+            f"track.ballast_mass is {track.ballast_mass:g} kg and a sleeper can lift off its "
+            "ballast, but receptances and the monolithic solution hold masses that are never left "
+            "behind: set track.ballast_mass to 0, or let the ballast pull and close the gaps"
+        )
     pads = _pad_law(track, supports)
     linear = track.pad == "linear"
     loose_pads = supports.rail_lifts if linear else np.ones(len(supports.gap), dtype=np.bool_)

@@ -130,15 +130,6 @@ def test_slope_and_curvature_are_derivatives_of_the_mass():
     assert here.curvature == pytest.approx((behind.slope - before.slope) / (2 * step), rel=1e-6)
 
 
-def test_ballast_that_does_not_pull_moves_along_with_what_presses_it():
-    keys = ("track.ballast=hyperbolic", "track.ballast_pulls=false")
-    scenario = read_scenario(None, (*ONE, *GROWING, *keys))
-    moving = support_laws(scenario, scenario.track, all_in_matrices=True).moving
-    x = np.array([-1e-3, -1e-9, 0.0, 5e-6, 10e-6, 20e-6, 0.1e-3, 0.2e-3, 0.3e-3])
-    share = np.array([0.0, 0.0, 0.0, 0.25, 0.5, 1.0, 1.0, 1.0, 1.0])
-    assert moving.at_rest(x) == pytest.approx(share * 40.0 / (1.0 - 2e3 * x), rel=1e-12)
-
-
 def test_sleepers_that_bend_carry_their_ballast():
     """Moments of both formulations: the ballast's inertia is spread over the sleeper in both."""
     keys = ("track.sleeper=beam", "track.ballast_mass=100", "track.supports_per_wheel=9")

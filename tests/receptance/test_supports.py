@@ -123,9 +123,10 @@ def test_heavier_sleepers_everywhere_are_another_nominal_track(tmp_path):
 
 
 @pytest.mark.parametrize("preload", [0.0, 60e3])
-def test_all_modes_are_the_whole_track(preload):
-    masses = ("variation.sleeper_mass_deviation=0.3", "track.ballast_mass=40")
-    keys = (PAD, *DIFFERENT, *masses, "variation.hanging_sleepers=4", "track.elements_per_bay=4")
+@pytest.mark.parametrize("special", [("variation.hanging_sleepers=4",), ("track.ballast_mass=40",)])
+def test_all_modes_are_the_whole_track(preload, special):
+    masses = ("variation.sleeper_mass_deviation=0.3", *special)
+    keys = (PAD, *DIFFERENT, *masses, "track.elements_per_bay=4")
     case = study(*keys, "track.mode_pairs=87", preload=preload, load=Place(position=3.0))
     direct, modal = (case.receptance(FREQUENCIES[1:], name) for name in ("direct", "modal"))
     assert np.abs(modal / direct - 1.0).max() < 1e-7
@@ -181,6 +182,12 @@ def test_what_opens_has_no_receptance_without_a_preload(keys, sentence):
     with pytest.raises(InputError, match=f"{sentence}.* or give a preload"):
         study(keys).receptance(FREQUENCIES)
     assert np.isfinite(study(keys, preload=50e3).receptance(FREQUENCIES)).all()
+
+
+def test_ballast_with_a_mass_that_a_sleeper_leaves_behind_has_no_receptance():
+    keys = ("track.ballast_mass=40", "variation.hanging_sleepers=4")
+    with pytest.raises(InputError, match=r"40 kg and a sleeper can lift off .* close the gaps"):
+        study(*keys, preload=50e3).receptance(FREQUENCIES)
 
 
 def test_what_the_simulation_refuses_has_no_receptance():
