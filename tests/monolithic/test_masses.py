@@ -15,7 +15,7 @@ from railcosim.monolithic.scenario_system import make_system
 from railcosim.monolithic.support_laws import support_laws
 from railcosim.passage import run_passage
 from railcosim.scenario_file import read_scenario
-from railcosim.surface_tables import compose
+from railcosim.surfaces.tables import compose
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SMALL = ("track.bays=10", "flat.position=3.6", "run.approach=0.055", "run.departure=0.005")
