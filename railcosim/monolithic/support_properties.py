@@ -124,7 +124,8 @@ def properties_of(scenario: Scenario, track: Track, *, first_bay: int = 0) -> Su
     track : Track
         Says how many there are.
     first_bay : int
-        Bays between 0 m and the first end of that; before 0 m supports are nominal.
+        Bays between 0 m and the first end of that; before 0 m supports are nominal, and beyond
+        those that the scenario tells of.
 
     Raises
     ------
@@ -133,7 +134,11 @@ def properties_of(scenario: Scenario, track: Track, *, first_bay: int = 0) -> Su
     """
     number = first_bay + np.arange(track.bays - 1)
     given = {
-        name: np.where(number < 0, PROPERTIES[name], values[np.maximum(number, 0)])
+        name: np.where(
+            (number >= 0) & (number < len(values)),
+            values[np.clip(number, 0, len(values) - 1)],
+            PROPERTIES[name],
+        )
         for name, values in support_properties(scenario).items()
     }
     names = ("pad_stiffness", "pad_damping", "ballast_stiffness", "ballast_damping")
