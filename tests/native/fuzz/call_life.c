@@ -176,6 +176,7 @@ void call_start(school *at, pupil *of)
         reset(at, of);
     if (of->is.phase != CREATED)
         return;
+    make_wishes(at, of);
     set_up_and_enter(at, of, draw_once_in(&at->draw, 2) ? 0.0 : draw_share(&at->draw), 0, 0.0);
     if (of->is.phase != INITIALISING)
         return;

@@ -100,6 +100,7 @@ void call_step(school *at, pupil *of);
 void call_states(school *at, pupil *of);
 void call_bytes(school *at, pupil *of);
 void call_start(school *at, pupil *of); /* through a whole proper initialisation */
+void make_wishes(school *at, pupil *of); /* parameters of an instance to be initialised */
 void spoil_tables(school *at);
 void leave_school(school *at);
 
