@@ -6,6 +6,12 @@ from difflib import get_close_matches
 from .last_attempt import LastAttempt
 from .outcome import Outcome
 
+most_inputs = 12
+"""Values that a message shows."""
+
+most_names = 4
+"""Names that a message shows."""
+
 
 class OrchestratorError(Exception):
     """Base of every error the package raises on purpose."""
@@ -117,19 +123,19 @@ def without_log(message: str) -> str:
     return message.partition("; it logged: ")[0].rstrip(".")
 
 
-def list_inputs(inputs: Mapping[str, float], limit: int = 12) -> str:
-    """Return ``"a = 1, b = 2"``, at most `limit` of them."""
-    shown = [f"{name} = {value:.9g}" for name, value in list(inputs.items())[:limit]]
-    if len(inputs) > limit:
-        shown.append(f"{len(inputs) - limit} more")
+def list_inputs(inputs: Mapping[str, float]) -> str:
+    """Return ``"a = 1, b = 2"``, at most `most_inputs` of them."""
+    shown = [f"{name} = {value:.9g}" for name, value in list(inputs.items())[:most_inputs]]
+    if len(inputs) > most_inputs:
+        shown.append(f"{len(inputs) - most_inputs} more")
     return ", ".join(shown)
 
 
-def list_names(names: Sequence[str], limit: int = 4) -> str:
-    """Return ``"a, b and c"``, at most `limit` of them."""
-    shown = list(names[:limit])
-    if len(names) > limit:
-        shown.append(f"{len(names) - limit} more")
+def list_names(names: Sequence[str]) -> str:
+    """Return ``"a, b and c"``, at most `most_names` of them."""
+    shown = list(names[:most_names])
+    if len(names) > most_names:
+        shown.append(f"{len(names) - most_names} more")
     return " and ".join([*filter(None, [", ".join(shown[:-1])]), *shown[-1:]])
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from build_fmus import PAIRS, FmuPaths, Structure, ensure_fmus, ensure_native_fmus, folder_of
+from fmu_src.building import FmuPaths, ensure_fmus, ensure_native_fmus, folder_of
 from fmu_src.native.compiler import CompilationError
 from fmu_src.native.models import native_track
+from fmu_src.structure import PAIRS, Structure
 
 from .dataset import count
 from .errors import BuildError, InputError
@@ -48,7 +49,7 @@ def build_for(
     contact : {"vehicle", "track"}
         Which of the two FMUs has the contacts.
     directory : Path, optional
-        Where the FMUs are kept; `build_fmus.folder_of` without.
+        Where the FMUs are kept; `fmu_src.building.folder_of` without.
     fmi_version : {2, 3}
         Version of FMI of native FMUs.
     platforms : collection of str, optional

@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from typing import Literal
 
-    from build_fmus import FmuPaths
+    from fmu_src.building import FmuPaths
     from vehicle_fmu.speed import SpeedLaw
 
     from .scenario import Scenario
     from .signals import ContactSide
-    from .surface_files import SurfaceFiles
+    from .surfaces.files import SurfaceFiles
 
 EXPLICIT_STEP = 1e-4
 """Step with contact on the track side, where the scenario leaves algorithm and step open [s]."""
@@ -109,19 +109,6 @@ def fmu_sources(
             timeout=timeout,
         ),
     )
-
-
-def connect(
-    scenario: Scenario,
-    paths: FmuPaths,
-    law: SpeedLaw,
-    *,
-    contact: ContactSide = "vehicle",
-    timeout: float | None = None,
-) -> System:
-    """Join track and vehicle; see `fmu_sources` and `join`."""
-    sources = fmu_sources(scenario, paths, law, contact=contact, timeout=timeout)
-    return join(sources, scenario, contact)
 
 
 def connections(scenario: Scenario, contact: ContactSide = "vehicle") -> list[Connection]:

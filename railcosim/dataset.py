@@ -10,7 +10,7 @@ import xarray as xr
 from .run_record import ATTEMPT_COLUMNS
 from .scenario_file import to_toml
 from .signals import COMPRESSION, FORWARDS, labels, signals_of
-from .surface_dataset import surface_dataset
+from .surfaces.dataset import surface_dataset
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from .scenario import Scenario
     from .signals import Dimension, Signal
-    from .surface_tables import UnevenSurfaces
+    from .surfaces.tables import UnevenSurfaces
 
 
 def count(scenario: Scenario) -> dict[Dimension, int]:

@@ -68,10 +68,6 @@ class SecantLaw:
                 f"{SOFTEST:g} to {STIFFEST:g} N/m"
             )
 
-    def secant_stiffness(self, force: FloatArray) -> FloatArray:
-        """Load over displacement [N/m] at loads of at least 0 [N]."""
-        return np.asarray(self.slope * force + self.stiffness)
-
     def displacement(self, force: FloatArray) -> FloatArray:
         """Sleeper displacement [m] under loads of at least 0 [N]."""
         return secant_displacement(force, slope=self.slope, stiffness=self.stiffness)

@@ -21,11 +21,11 @@ from .coupled_system import (
 )
 from .errors import InputError, RunError
 from .evidence import keeping_evidence
+from .histories.record import recording
 from .input_tables import check_profiles
 from .motion import speed_law, travel_time
-from .passage_record import recording
 from .run_record import doubts, programs, statistics
-from .surface_tables import compose, written
+from .surfaces.tables import compose, written
 from .watched_control import WatchedControl
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from build_fmus import FmuPaths
+    from fmu_src.building import FmuPaths
     from orchestrator import FmuSource, Outcome, Recorder, System
     from vehicle_fmu.speed import SpeedLaw
 
@@ -71,7 +71,7 @@ def run_passage(
     replay : Path, optional
         Replay file to write if the run fails.
     directory : Path, optional
-        Where the FMUs are kept; `build_fmus.folder_of` without.
+        Where the FMUs are kept; `fmu_src.building.folder_of` without.
     histories : Path, optional
         New NetCDF file that the kept histories of a scenario with ``[keep]`` are written to while
         it runs; the file is then the result, and what is returned lacks its histories.

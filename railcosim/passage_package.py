@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    from build_fmus import FmuPaths
+    from fmu_src.building import FmuPaths
 
     from .scenario import Scenario
     from .signals import ContactSide

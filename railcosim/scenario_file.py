@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import json
 import tomllib
 from dataclasses import fields
 from pathlib import Path
@@ -19,7 +18,7 @@ from .scenario import Scenario
 from .sections import Flat, Run, Surface
 from .suspension_section import Suspension
 from .table_lists import TableList, numbered
-from .toml_text import parse_toml, read_text
+from .toml_text import parse_toml, read_text, table_to_toml
 from .track_section import Track
 from .variation import Variation
 from .vehicle_section import Vehicle
@@ -53,9 +52,6 @@ KEYS: Mapping[str, tuple[str, ...]] = {
     name: tuple(item.name for item in fields(kind)) for name, kind in SECTIONS.items()
 }
 """Keys of every section."""
-
-TomlValue: TypeAlias = bool | float | str | tuple[str, ...]
-"""What a key may hold."""
 
 Values: TypeAlias = dict[str, Any]
 """Of every section a dictionary of its keys, of every list its tables."""
@@ -119,22 +115,12 @@ def to_toml(scenario: Scenario) -> str:
         if isinstance(section, Keep) and section.is_all:
             continue
         values = {item.name: getattr(section, item.name) for item in fields(kind)}
-        blocks.append(section_to_toml(name, values))
+        blocks.append(table_to_toml(name, values))
     for name in LISTS:
         for item in getattr(resolved, name):
             values = {key.name: getattr(item, key.name) for key in fields(item)}
-            blocks.append(section_to_toml(f"[{name}]", {"kind": item.kind} | values))
+            blocks.append(table_to_toml(f"[{name}]", {"kind": item.kind} | values))
     return "\n".join(blocks)
-
-
-def section_to_toml(name: str, values: Mapping[str, TomlValue | None]) -> str:
-    """Write one section of a scenario file; keys without a value are left out."""
-    lines = [
-        f"{key} = {_toml_value(value)}"
-        for key, value in values.items()
-        if value is not None and value != ""
-    ]
-    return "\n".join([f"[{name}]", *lines]) + "\n"
 
 
 def no_values() -> Values:
@@ -254,12 +240,3 @@ def _nearest(name: str) -> str:
 
 def _listed(words: Iterable[str]) -> str:
     return ", ".join(words)
-
-
-def _toml_value(value: TomlValue) -> str:
-    """Write a value so that reading it gives the same one, bit for bit."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, tuple):
-        return json.dumps(list(value))
-    return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)

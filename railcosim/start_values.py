@@ -9,7 +9,7 @@ from fmu_src.native.models import TRACK_CONSTANTS
 
 from .motion import initial_speed
 from .support_values import support_values
-from .surface_files import files_of
+from .surfaces.files import files_of
 from .suspension_section import Suspension
 from .track_section import Track
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from .scenario import Scenario
     from .signals import ContactSide
-    from .surface_files import SurfaceFiles
+    from .surfaces.files import SurfaceFiles
 
 Value: TypeAlias = float | int | bool | str
 """What a parameter of an FMU may be."""

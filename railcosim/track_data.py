@@ -1,11 +1,10 @@
-"""The section `[track]` of a scenario as parameters and force law of the track model."""
+"""The section `[track]` of a scenario as the linear track of the track model."""
 
 from __future__ import annotations
 
 from dataclasses import fields
 from typing import TYPE_CHECKING
 
-from track_fmu.ballast import PolynomialBallast
 from track_fmu.parameters import TrackParameters
 
 from .support_values import support_properties
@@ -32,15 +31,3 @@ def track_parameters(track: Track) -> TrackParameters:
     """Return the parameters of the linear track."""
     names = [item.name for item in fields(TrackParameters)]
     return TrackParameters(**{name: getattr(track, name) for name in names})
-
-
-def ballast_law(track: Track) -> PolynomialBallast | None:
-    """Return the law of the state-dependent ballast, Eq. (27) and (30), or None if it is linear."""
-    if track.ballast == "linear":
-        return None
-    return PolynomialBallast(
-        alpha=track.ballast_alpha,
-        beta=track.ballast_beta,
-        delta=track.ballast_delta,
-        tau=track.ballast_damping / track.ballast_stiffness,
-    )

@@ -7,7 +7,7 @@ import numpy as np
 import psutil
 import pytest
 
-from build_fmus import ensure_fmus
+from fmu_src.building import ensure_fmus
 from railcosim.builds import build_for
 from railcosim.cosim import run_system
 from railcosim.cosim_options import CosimOptions

@@ -17,11 +17,11 @@ PYTHON = sys.stdlib_module_names | {"_typeshed"}  # the latter only for type che
 MAY_IMPORT = {
     "track_fmu": {"numpy", "scipy"},
     "vehicle_fmu": {"numpy", "scipy"},
-    "fmu_src": {"numpy", "scipy", "fmpy", "pythonfmu", *MODELS},
+    "fmu_src": {"numpy", "scipy", "fmpy", "platformdirs", "pythonfmu", *MODELS},
     "orchestrator": {"numpy", "scipy", "fmpy", "lxml"},
-    "build_fmus": {"platformdirs", "fmu_src"},
+    "build_fmus": {"fmu_src"},
     "railcosim": {
-        *(OURS - {"railcosim"}),
+        *(OURS - {"railcosim", "build_fmus"}),
         "dask",
         "distributed",
         "fmpy",
@@ -40,8 +40,8 @@ MAY_IMPORT = {
         "typer",
         "xarray",
     },
-    "docs": {"build_fmus", "fmu_src", "latex2mathml", "mkdocs"},
-    "examples": {"fmpy", "matplotlib", "numpy", "build_fmus"},
+    "docs": {"fmu_src", "latex2mathml", "mkdocs"},
+    "examples": {"fmpy", "matplotlib", "numpy"},
 }
 """Who may import what besides the standard library and itself."""
 

@@ -34,16 +34,6 @@ class ModalBasis:
         """How often a mode counts, shape (S,): 2 for a complex pair, 1 for a real state."""
         return np.where(self.eigenvalues.imag == 0.0, 1.0, 2.0)
 
-    @property
-    def modal_damping(self) -> ComplexArray:
-        """``a_n`` of Eq. (11a), shape (S,): one by normalisation."""
-        return np.ones_like(self.eigenvalues)
-
-    @property
-    def modal_stiffness(self) -> ComplexArray:
-        """``b_n = -lambda_n a_n`` of Eq. (11b) and (12), shape (S,) [1/s]."""
-        return -self.eigenvalues
-
 
 def compute_basis(matrices: TrackMatrices, *, mode_pairs: int) -> ModalBasis:
     """Solve the damped eigenvalue problem of the linear track.

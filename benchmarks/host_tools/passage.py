@@ -4,7 +4,7 @@ from pathlib import Path
 
 import fmpy
 
-from build_fmus import FmuPaths
+from fmu_src.building import FmuPaths
 from railcosim.passage_package import describe_passage
 from railcosim.scenario_file import read_scenario
 

@@ -5,7 +5,7 @@ from functools import partial
 from pathlib import Path
 from typing import Literal, TypeAlias
 
-from build_fmus import FmuPaths
+from fmu_src.building import FmuPaths
 from railcosim.builds import build_for
 from railcosim.passage_package import ensure_package
 from railcosim.scenario_file import read_scenario

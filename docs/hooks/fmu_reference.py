@@ -11,10 +11,10 @@ from xml.etree.ElementTree import Element, fromstring
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 
-from build_fmus import Structure
 from fmu_src.native.model_description import describe_fmi2, describe_fmi3
 from fmu_src.native.models import NativeModel, native_masses, native_track, native_vehicle
 from fmu_src.python.packaging import fmu_contents
+from fmu_src.structure import Structure
 
 INTRODUCTION = """# FMUs and their variables
 

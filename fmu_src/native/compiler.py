@@ -88,7 +88,7 @@ def recipe(model: str, target: str, *, name: str) -> dict[str, bytes]:
     return source_files(model) | {"options": options.encode()}
 
 
-def compile_library(model: str, target: str, *, name: str, extra: Sequence[str] = ()) -> bytes:
+def compile_library(model: str, target: str, *, name: str) -> bytes:
     """Shared library of a model.
 
     Parameters
@@ -99,8 +99,6 @@ def compile_library(model: str, target: str, *, name: str, extra: Sequence[str] 
         A key of `TARGETS`.
     name : str
         Name of the library without its suffix; on macOS it is part of the bytes.
-    extra : sequence of str
-        Further options and sources.
 
     Raises
     ------
@@ -108,7 +106,7 @@ def compile_library(model: str, target: str, *, name: str, extra: Sequence[str] 
         If ziglang is not installed or does not compile the sources.
     """
     chosen = TARGETS[target]
-    return _compile(model, chosen, [*_options(chosen, name), *extra], name=name)
+    return _compile(model, chosen, _options(chosen, name), name=name)
 
 
 def compile_program(model: str, target: str, *, main: Path) -> bytes:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..archives import ArchiveLimits, default_limits, find_danger
+from ..archives import find_danger
 from ..errors import SystemFileError
 from ..fmu_source import FmuSource
 from ..last_attempt import LastAttempt
@@ -24,15 +24,13 @@ from .writing import document_name, format_name
 
 
 @contextmanager
-def open_replay(path: Path, *, limits: ArchiveLimits = default_limits) -> Iterator[ReplayCase]:
+def open_replay(path: Path) -> Iterator[ReplayCase]:
     """Read a replay file; its FMUs are there as long as the context lasts.
 
     Parameters
     ----------
     path : pathlib.Path
         The file.
-    limits : ArchiveLimits
-        What it may amount to.
 
     Yields
     ------
@@ -49,7 +47,7 @@ def open_replay(path: Path, *, limits: ArchiveLimits = default_limits) -> Iterat
     with TemporaryDirectory(prefix="replay-", ignore_cleanup_errors=True) as folder:
         try:
             with zipfile.ZipFile(path) as archive:
-                danger = find_danger(archive, limits)
+                danger = find_danger(archive)
                 if danger is not None:
                     raise SystemFileError(f"{path.name}: it is not unpacked: {danger}.")
                 archive.extractall(folder)

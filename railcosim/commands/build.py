@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from build_fmus import folder_of
+from fmu_src.building import folder_of
 from fmu_src.native.compiler import TARGETS
 
 from ..errors import InputError

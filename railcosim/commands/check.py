@@ -13,7 +13,7 @@ from orchestrator import check_fmu
 from orchestrator.isolated import DEFAULT_TIMEOUT
 
 from ..errors import InputError, RunError
-from ..verdict_table import verdict_table
+from ..terminal.verdict_table import verdict_table
 from .endings import exit_codes
 
 

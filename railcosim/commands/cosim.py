@@ -14,8 +14,8 @@ from ..cosim import run_system
 from ..cosim_options import CosimOptions
 from ..cosim_result import cosim_table, summarise_cosim
 from ..output import write_dataset
-from ..progress import progress_bar
 from ..result_check import check_result
+from ..terminal.progress import progress_bar
 from .endings import exit_codes, keeping, say
 from .options import Isolate, Output, Quiet, Replay, Timeout, check_output, replay_file, time_limit
 from .stdout import stdout_for_results

@@ -11,9 +11,9 @@ from ..errors import InputError
 from ..figures.irregularity import draw_surfaces
 from ..output import check_writable, write_dataset, write_figure
 from ..scenario_file import read_scenario
-from ..surface_dataset import surface_dataset
-from ..surface_report import surface_numbers, surface_report
-from ..surface_tables import compose, write_tables
+from ..surfaces.dataset import surface_dataset
+from ..surfaces.report import surface_numbers, surface_report
+from ..surfaces.tables import compose, write_tables
 from .endings import exit_codes
 from .options import Json, Overrides, Plot, ScenarioFile, check_plot
 

@@ -12,7 +12,7 @@ import orchestrator
 from orchestrator.replay import open_replay, repeat
 
 from ..errors import InputError, RunError
-from ..repetition_report import repetition_numbers, repetition_table
+from ..terminal.repetition_report import repetition_numbers, repetition_table
 from .endings import exit_codes
 from .stdout import stdout_for_results
 

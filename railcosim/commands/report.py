@@ -17,12 +17,12 @@ from ..errors import InputError, RunError
 from ..notes import notes
 from ..output import check_writable, replacing
 from ..passage import run_passage
-from ..progress import progress_bar
 from ..result_check import check_result
 from ..result_file import read_passage
 from ..scenario import Scenario
 from ..scenario_file import read_scenario
 from ..summary import summarise
+from ..terminal.progress import progress_bar
 from .endings import exit_codes, say
 from .options import ContactName, FmuKind, Quiet
 from .stdout import stdout_for_results

@@ -16,11 +16,11 @@ from ..figures.passage import describe, draw_passage
 from ..notes import notes
 from ..output import replacing, write_dataset, write_figure
 from ..passage import run_passage
-from ..progress import progress_bar
 from ..result_check import check_result
 from ..scenario_file import read_scenario
 from ..summary import summarise
-from ..summary_table import summary_table
+from ..terminal.progress import progress_bar
+from ..terminal.summary_table import summary_table
 from .endings import exit_codes, keeping, say
 from .options import (
     ContactName,

@@ -16,11 +16,11 @@ from ..errors import RunError
 from ..figures.passage import describe
 from ..output import FIGURE_SUFFIXES, check_writable, write_dataset, write_figure
 from ..passage import run_passage
-from ..progress import progress_bar
 from ..result_check import check_result
 from ..scenario import Scenario
 from ..scenario_file import read_scenario
-from ..verdict_table import verdict_table
+from ..terminal.progress import progress_bar
+from ..terminal.verdict_table import verdict_table
 from ..verification import Agreement, advice, agreements, side_by_side
 from .endings import exit_codes, say
 from .options import FmuKind, Output, Quiet, check_output

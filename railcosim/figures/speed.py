@@ -47,9 +47,7 @@ class Points:
     value: NDArray[np.float64]
 
 
-def draw_over_speed(
-    peaks: xr.DataArray, label: str, measured: Sequence[Points] = (), *, factor: float = 1e-3
-) -> Figure:
+def draw_over_speed(peaks: xr.DataArray, label: str, measured: Sequence[Points] = ()) -> Figure:
     """Draw peak values over the speed with polynomials of fifth order fitted to them.
 
     Parameters
@@ -57,11 +55,9 @@ def draw_over_speed(
     peaks : xarray.DataArray
         Calculated peaks, dims (speed_kmh, ballast).
     label : str
-        What they are, with the unit that the factor makes.
+        What they are, with a unit a thousand times theirs.
     measured : sequence of Points
         Measured peaks in the same unit.
-    factor : float
-        From the unit of the peaks to the drawn one.
 
     Returns
     -------
@@ -73,13 +69,13 @@ def draw_over_speed(
     axes = figure.subplots()
     for ballast, (marker, colour) in MARKERS.items():
         one = peaks.sel(ballast=ballast)
-        speed, value = one["speed_kmh"].to_numpy(), factor * one.to_numpy()
+        speed, value = one["speed_kmh"].to_numpy(), 1e-3 * one.to_numpy()
         name = f"{ballast.replace('_', '-')} track"
         axes.plot(speed, value, marker, color=colour, fillstyle="none", label=name)
         _draw_fit(axes, speed, value, colour)
     for points, colour in zip(measured, ("black", *OTHERS[1:]) * len(measured), strict=False):
-        axes.plot(points.speed, factor * points.value, "*", color=colour, label=points.name)
-        _draw_fit(axes, points.speed, factor * points.value, colour)
+        axes.plot(points.speed, 1e-3 * points.value, "*", color=colour, label=points.name)
+        _draw_fit(axes, points.speed, 1e-3 * points.value, colour)
     axes.set_xlabel("speed [km/h]")
     axes.set_ylabel(label)
     tidy(axes)

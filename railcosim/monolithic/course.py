@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from vehicle_fmu.speed import SpeedLaw
 
     from ..scenario import Scenario
-    from ..surface_tables import UnevenSurfaces
+    from ..surfaces.tables import UnevenSurfaces
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from vehicle_fmu.out_of_roundness import OutOfRoundness
 
     from ..scenario import Scenario
-    from ..surface_tables import UnevenSurfaces
+    from ..surfaces.tables import UnevenSurfaces
 
     Drop = Callable[[float], float]
 

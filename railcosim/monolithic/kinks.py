@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from vehicle_fmu.speed import SpeedLaw
 
     from ..scenario import Scenario
-    from ..surface_tables import UnevenSurfaces
+    from ..surfaces.tables import UnevenSurfaces
 
 CLOSE = 1e-9
 """Kinks nearer to each other than this are one [s]."""

@@ -17,7 +17,7 @@ from ..errors import InputError
 from ..input_tables import check_profiles
 from ..run_record import ATTEMPT_COLUMNS, programs
 from ..summary import CAUSES
-from ..surface_tables import compose
+from ..surfaces.tables import compose
 from ..track_data import track_parameters
 from ..watched_control import Progress
 from .course import course_of

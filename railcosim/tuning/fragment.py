@@ -6,7 +6,7 @@ from dataclasses import fields
 from typing import TYPE_CHECKING
 
 from ..output import replacing
-from ..scenario_file import section_to_toml
+from ..toml_text import table_to_toml
 from ..track_section import Track
 
 if TYPE_CHECKING:
@@ -45,6 +45,6 @@ def write_fragment(
     ]
     lines = [f"# fitted to {source!r}; 95 % confidence intervals:"]
     lines += [f"#   {e.name} {e.low:.5g} to {e.high:.5g} {e.unit}" for e in estimates]
-    lines.append(section_to_toml("track", {key: getattr(track, key) for key in keys}))
+    lines.append(table_to_toml("track", {key: getattr(track, key) for key in keys}))
     with replacing(path) as temporary:
         temporary.write_text("\n".join(lines), encoding="utf-8")

@@ -14,6 +14,7 @@ from ..receptance.measured import log_residual
 from ..support_values import support_properties
 from ..track_data import track_parameters
 from .estimate import Estimate, covariance, half_width, rounded
+from .fit_checks import check_fit, check_points, check_scale, root_mean_square
 from .support_receptance import SUPPORT_PARAMETERS, SupportReceptance
 
 if TYPE_CHECKING:
@@ -26,20 +27,11 @@ if TYPE_CHECKING:
     from ..receptance.points import Place
     from ..scenario import Scenario
 
-LEAST_POINTS = 20
-"""Measured frequencies without which four parameters are not fitted."""
-
 FARTHEST = 1000.0
 """Factor by which a parameter may move from its start, either way."""
 
-WRONG_SCALE = 30.0
-"""Factor between measured and calculated amplitudes beyond which their unit must be another."""
-
 MOST_EVALUATIONS = 50
 """A search that needs more walks along something that the data do not determine."""
-
-WORST_FIT = np.log(2.0)
-"""Root mean square of log-amplitudes that no longer is a fit: a factor of two, 6 dB."""
 
 WIDEST = np.log(2.0)
 """Half-width of a logarithmic confidence interval beyond which a parameter is not determined."""
@@ -104,10 +96,10 @@ def tune_to_receptance(
     require_equal_supports(scenario)
     fitted = [k for k, name in enumerate(SUPPORT_PARAMETERS) if name not in hold]
     start = _start(scenario, hold)
-    _check_points(measured, len(fitted))
+    check_points(measured, len(fitted))
     parameters = track_parameters(scenario.track)
     model = SupportReceptance(parameters, measured.frequency, load=load, response=response)
-    _check_scale(np.abs(model.evaluate(start)[0]), measured)
+    check_scale(np.abs(model.evaluate(start)[0]), measured)
 
     def values(unknowns: FloatArray) -> FloatArray:
         result = start.copy()
@@ -138,7 +130,7 @@ def tune_to_receptance(
     )
     points = len(measured.frequency)
     amplitude, phase = found.fun[:points], found.fun[points:]
-    _check_fit(amplitude)
+    check_fit(amplitude)
     estimates = _estimates(found.x, jacobian(found.x), found.fun, start, fitted)
     if not found.success:
         raise RunError(
@@ -150,8 +142,8 @@ def tune_to_receptance(
         scenario=replace(scenario, track=replace(scenario.track, **best)),
         estimates=estimates,
         points=points,
-        amplitude_deviation=_root_mean_square(amplitude),
-        phase_deviation=_root_mean_square(phase) if phase.size else None,
+        amplitude_deviation=root_mean_square(amplitude),
+        phase_deviation=root_mean_square(phase) if phase.size else None,
     )
 
 
@@ -199,35 +191,6 @@ def _start(scenario: Scenario, hold: Collection[str]) -> FloatArray:
     return start
 
 
-def _check_points(measured: MeasuredReceptance, unknowns: int) -> None:
-    points = len(measured.frequency)
-    if points < LEAST_POINTS:
-        raise InputError(
-            f"{points} measured frequencies are too few to fit {unknowns} parameters: measure at "
-            f"{LEAST_POINTS} or more, or widen --from and --to"
-        )
-
-
-def _check_scale(calculated: FloatArray, measured: MeasuredReceptance) -> None:
-    ratio = float(np.exp(np.median(np.log(measured.amplitude / calculated))))
-    if not 1.0 / WRONG_SCALE < ratio < WRONG_SCALE:
-        raise InputError(
-            f"the measured amplitudes are about {ratio:.3g} times those of the track, more than a "
-            f"factor of {WRONG_SCALE:g}: give displacement over force in m/N, or start from a "
-            "closer track"
-        )
-
-
-def _check_fit(amplitude: FloatArray) -> None:
-    misfit = _root_mean_square(amplitude)
-    if misfit > WORST_FIT:
-        raise InputError(
-            f"the best fit is off by a factor of {np.exp(misfit):.2g} (root mean square) but must "
-            f"be within {np.exp(WORST_FIT):g}: check where it was measured (--position, "
-            "--response), the other keys of the track and the range of frequency"
-        )
-
-
 def _estimates(
     unknowns: FloatArray,
     jacobian: FloatArray,
@@ -260,7 +223,3 @@ def _estimates(
         )
         for name, value, width in zip(names, values, widths, strict=True)
     )
-
-
-def _root_mean_square(values: FloatArray) -> float:
-    return float(np.sqrt(np.mean(values**2)))

@@ -4,8 +4,9 @@ import pytest
 from orchestrator import MasterSettings
 from railcosim.builds import build_for
 from railcosim.coupled_system import (
-    connect,
+    fmu_sources,
     indicators,
+    join,
     located_events,
     master_settings,
     with_steps_for,
@@ -31,6 +32,11 @@ def fmus(tmp_path_factory):
     return lambda scenario: build_for(scenario, directory=folder)
 
 
+def coupled(scenario, paths, contact="vehicle"):
+    law = speed_law(scenario.vehicle)
+    return join(fmu_sources(scenario, paths, law, contact=contact), scenario, contact)
+
+
 @pytest.mark.parametrize(
     "scenario",
     [
@@ -45,7 +51,7 @@ def fmus(tmp_path_factory):
 )
 def test_fmus_have_every_parameter_connection_signal_and_indicator(scenario, fmus):
     """Start values and connections are checked when the system is made."""
-    system = connect(scenario, fmus(scenario), speed_law(scenario.vehicle))
+    system = coupled(scenario, fmus(scenario))
     for signal in SIGNALS:
         for k in range(1, count(scenario)[signal.dim] + 1):
             _, variable = system.find(signal.path(k))
@@ -65,11 +71,11 @@ def test_no_parameter_of_an_fmu_is_left_to_its_default(fmus):
         "track": track_values(scenario, law),
         "vehicle": vehicle_values(scenario, law),
     }
-    for participant in connect(scenario, fmus(scenario), law).participants:
+    for participant in coupled(scenario, fmus(scenario)).participants:
         parameters = {
             name
             for name, item in participant.variables.items()
-            if item.causality == "parameter" and not name.startswith("support[")
+            if item.causality == "parameter" and not name.startswith("support")
         }
         assert parameters - given[participant.name].keys() <= {"substep", "linear_inputs"}
 
@@ -81,12 +87,12 @@ def test_nor_is_one_with_contact_on_the_track_side():
         "track": track_values(scenario, law, "track"),
         "vehicle": vehicle_values(scenario, law, "track"),
     }
-    system = connect(scenario, build_for(scenario, contact="track"), law, contact="track")
+    system = coupled(scenario, build_for(scenario, contact="track"), "track")
     for participant in system.participants:
         parameters = {
             name
             for name, item in participant.variables.items()
-            if item.causality == "parameter" and not name.startswith("support[")
+            if item.causality == "parameter" and not name.startswith("support")
         }
         assert parameters - given[participant.name].keys() <= {"linear_inputs", "substep"}
     for signal in SIGNALS:

@@ -17,8 +17,8 @@ from railcosim.load_displacement import (
 )
 from railcosim.scenario import Scenario
 from railcosim.secant_data import SecantData
-from railcosim.track_data import ballast_law
 from railcosim.track_section import Track
+from track_fmu.ballast import PolynomialBallast
 
 LAW = SecantLaw()
 PAPER = ballast_polynomial(Scenario().track)
@@ -30,7 +30,8 @@ def test_the_law_and_its_inverse():
     displacement = LAW.displacement(force)
     assert displacement[2] == pytest.approx(0.4e-3, rel=1e-12)
     assert LAW.force(displacement) == pytest.approx(force, rel=1e-12)
-    assert force[1:] / displacement[1:] == pytest.approx(LAW.secant_stiffness(force[1:]), rel=1e-12)
+    secant = LAW.slope * force[1:] + LAW.stiffness
+    assert force[1:] / displacement[1:] == pytest.approx(secant, rel=1e-12)
 
 
 def test_the_papers_coefficients_come_from_ten_loads_up_to_60_kn():
@@ -90,7 +91,7 @@ def test_the_tangent_of_the_papers_polynomial_never_falls_below_that_of_the_unlo
 
 def test_the_polynomial_is_the_force_of_the_track_model():
     x = np.array([0.1e-3, 0.4e-3])
-    increment = ballast_law(Scenario().track).force(x, np.zeros(2), np.arange(2))
+    increment = PolynomialBallast().force(x, np.zeros(2), np.arange(2))
     assert PAPER.force(x) == pytest.approx(30e6 * x + increment, rel=1e-12)
     assert ballast_polynomial(Track(ballast="linear")).force(x) == pytest.approx(30e6 * x)
 
@@ -135,7 +136,7 @@ def test_the_curves_are_labelled_and_drawn():
     assert curves["force_law"].to_numpy()[-1] == pytest.approx(60e3, rel=1e-9)
     assert curves["force_linear"].to_numpy()[-1] == pytest.approx(12e3, rel=1e-9)
     assert all(curves[name].attrs["units"] in {"N", "m"} for name in curves.variables)
-    points = SecantData(force=loads, stiffness=LAW.secant_stiffness(loads))
+    points = SecantData(force=loads, stiffness=LAW.slope * loads + LAW.stiffness)
     (axes,) = draw_load_displacement(curves, points).axes
     drawn = {line.get_label(): line for line in axes.lines}
     assert drawn["linear"].get_ydata()[-1] == pytest.approx(12.0, rel=1e-9)

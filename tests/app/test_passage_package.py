@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from build_fmus import default_directory
+from fmu_src.building import folder_of
 from orchestrator import System
 from orchestrator.ssp import open_system
 from railcosim.builds import build_for
@@ -27,7 +27,7 @@ SHORT = Scenario(flat=Flat(depth=2e-3), run=Run(approach=0.1, departure=0.1))
 
 @pytest.fixture(scope="module")
 def fmus():
-    return build_for(Scenario(), directory=default_directory())
+    return build_for(Scenario(), directory=folder_of("python"))
 
 
 def test_the_package_runs_the_same_passage(fmus, tmp_path):

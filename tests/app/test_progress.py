@@ -4,7 +4,7 @@ import pytest
 from rich.console import Console
 
 from orchestrator import Candidate, Cause, ErrorControl, Failure
-from railcosim.progress import progress_bar
+from railcosim.terminal.progress import progress_bar
 from railcosim.watched_control import Progress, WatchedControl
 
 

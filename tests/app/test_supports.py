@@ -1,13 +1,13 @@
 """What a scenario says of its supports, and of their pads."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from railcosim import cli
 from railcosim.errors import InputError
 from railcosim.input_tables import check_laws
 from railcosim.motion import speed_law
@@ -15,7 +15,7 @@ from railcosim.pad_curves import pad_loops
 from railcosim.scenario_file import read_scenario
 from railcosim.start_values import track_values
 from railcosim.support_values import random_factors, support_properties, support_values
-from railcosim.surface_tables import write_supports
+from railcosim.surfaces.tables import write_supports
 from railcosim.track_data import is_linear
 from railcosim.variation import Variation
 
@@ -202,15 +202,12 @@ def test_small_loops_have_the_stiffness_of_the_three_parameters():
 
 def test_the_command_prints_numbers_and_draws_the_pad(tmp_path):
     plot = tmp_path / "pad.png"
-    command = [sys.executable, "-m", "railcosim", "pad", "--set", f"track.pad={PAD}", "--json"]
-    answer = subprocess.run(
-        [*command, "--plot", str(plot)], check=True, capture_output=True, text=True
-    )
+    command = ["pad", "--set", f"track.pad={PAD}", "--json", "--plot", str(plot)]
+    answer = CliRunner().invoke(cli.app, command)
+    assert answer.exit_code == 0, answer.stderr
     numbers = json.loads(answer.stdout)
     assert [row["preload"] for row in numbers["preloads"]] == [20e3, 30e3, 40e3, 60e3, 80e3]
     assert plot.stat().st_size > 1e4
-    refused = subprocess.run(
-        [sys.executable, "-m", "railcosim", "pad"], capture_output=True, text=True, check=False
-    )
-    assert refused.returncode == 2
+    refused = CliRunner().invoke(cli.app, ["pad"])
+    assert refused.exit_code == 2
     assert "track.pad is linear, which has no loop" in refused.stderr

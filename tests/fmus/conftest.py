@@ -1,6 +1,7 @@
 import pytest
 
-from build_fmus import Structure, ensure_fmus
+from fmu_src.building import ensure_fmus
+from fmu_src.structure import Structure
 
 from .instance import Instance
 

@@ -6,7 +6,8 @@ from fmpy import read_model_description
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 
-from build_fmus import Structure, ensure_fmus
+from fmu_src.building import ensure_fmus
+from fmu_src.structure import Structure
 from orchestrator import check_fmu
 
 from .instance import Instance

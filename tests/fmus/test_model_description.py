@@ -7,7 +7,8 @@ from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 from lxml import etree
 
-from build_fmus import Structure, ensure_fmus
+from fmu_src.building import ensure_fmus
+from fmu_src.structure import Structure
 from orchestrator import FmuParticipant
 
 

@@ -6,15 +6,15 @@ from pathlib import Path
 
 import pythonfmu
 
-from build_fmus import Structure
 from fmu_src.python.packaging import fmu_contents
+from fmu_src.structure import Structure
 
 LISTS = """
 import sys
 sys.path.insert(0, sys.argv[1])
 import pythonfmu
 assert pythonfmu.__file__.startswith(sys.argv[1])
-from build_fmus import Structure
+from fmu_src.structure import Structure
 from fmu_src.python.packaging import fmu_contents
 print(*fmu_contents("vehicle", Structure().of("vehicle")), sep="\\n")
 """

@@ -3,9 +3,9 @@
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from build_fmus import Structure
 from fmu_src.archive import write_archive
 from fmu_src.python.packaging import fmu_contents
+from fmu_src.structure import Structure
 
 from .slaves import STEP, drive_track, drive_vehicle, open_small, small_track
 

@@ -1,27 +1,26 @@
 """`railcosim irregularity` and what it shows."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.figure import Figure
+from typer.testing import CliRunner
 
+from railcosim import cli
 from railcosim.figures.irregularity import draw_surfaces
 from railcosim.irregularity.bands import band_levels
 from railcosim.scenario_file import read_scenario
-from railcosim.surface_report import surface_numbers, surface_report
-from railcosim.surface_tables import compose
+from railcosim.surfaces.report import surface_numbers, surface_report
+from railcosim.surfaces.tables import compose
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 
 def irregularity(*arguments):
-    command = [sys.executable, "-m", "railcosim", "irregularity", *map(str, arguments)]
-    return subprocess.run(command, check=False, capture_output=True, text=True)
+    return CliRunner().invoke(cli.app, ["irregularity", *map(str, arguments)])
 
 
 def test_tables_arrays_picture_and_numbers_are_of_one_surface(tmp_path):
@@ -30,7 +29,7 @@ def test_tables_arrays_picture_and_numbers_are_of_one_surface(tmp_path):
         EXAMPLES / "worn_wheels.toml", "--json", "--tables", tmp_path, "--output", files[0],
         "--plot", files[1],
     )  # fmt: skip
-    assert answer.returncode == 0, answer.stderr
+    assert answer.exit_code == 0, answer.stderr
     numbers = json.loads(answer.stdout)
     assert numbers["rail"] is None
     assert not (tmp_path / "rail.csv").exists()
@@ -54,7 +53,7 @@ def test_tables_arrays_picture_and_numbers_are_of_one_surface(tmp_path):
 )
 def test_what_cannot_be_shown_is_refused(arguments, sentence):
     answer = irregularity(*arguments)
-    assert answer.returncode == 2
+    assert answer.exit_code == 2
     assert sentence in answer.stderr
 
 

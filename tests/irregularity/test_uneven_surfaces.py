@@ -12,11 +12,11 @@ from railcosim.irregularity.windows import onset
 from railcosim.rail_sections import Corrugation, FraTrack, Iso3095Roughness, Joint, MeasuredRail
 from railcosim.scenario import Scenario
 from railcosim.sections import Flat, Run, Surface
-from railcosim.surface_dataset import surface_dataset
-from railcosim.surface_files import files_of
-from railcosim.surface_tables import compose, written
-from railcosim.uneven_rail import compose_rail, semi_axis
-from railcosim.uneven_wheels import compose_treads
+from railcosim.surfaces.dataset import surface_dataset
+from railcosim.surfaces.files import files_of
+from railcosim.surfaces.rail import compose_rail, semi_axis
+from railcosim.surfaces.tables import compose, written
+from railcosim.surfaces.wheels import compose_treads
 from railcosim.vehicle_section import Vehicle
 from railcosim.wheel_sections import MeasuredWheel, Polygon, Spall, WheelFlat
 

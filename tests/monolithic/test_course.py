@@ -9,7 +9,7 @@ from railcosim.input_tables import read_flat
 from railcosim.monolithic.course import course_of
 from railcosim.monolithic.drops import Drops
 from railcosim.scenario_file import from_toml, read_scenario
-from railcosim.surface_tables import compose
+from railcosim.surfaces.tables import compose
 from vehicle_fmu.surfaces import Surfaces
 
 RADIUS = 0.45

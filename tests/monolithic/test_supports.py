@@ -12,7 +12,7 @@ from railcosim.monolithic.jacobian import jacobian
 from railcosim.monolithic.solution import make_system
 from railcosim.passage import run_passage
 from railcosim.scenario_file import read_scenario
-from railcosim.surface_tables import compose
+from railcosim.surfaces.tables import compose
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 STATIC_LOAD = 117_720.0

@@ -12,7 +12,7 @@ from railcosim.monolithic.jacobian import jacobian
 from railcosim.monolithic.solution import make_system
 from railcosim.scenario_file import read_scenario
 from railcosim.summary import summarise
-from railcosim.surface_tables import compose
+from railcosim.surfaces.tables import compose
 
 STATIC_LOAD = 117_720.0
 MASS = 592.5

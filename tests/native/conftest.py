@@ -2,10 +2,11 @@ import zipfile
 
 import pytest
 
-from build_fmus import Structure, ensure_native_fmus
+from fmu_src.building import ensure_native_fmus
 from fmu_src.native.compiler import TARGETS, compile_library, this_target
 from fmu_src.native.model_resources import masses_resource, track_resource, vehicle_resource
 from fmu_src.native.model_sources import MODELS
+from fmu_src.structure import Structure
 from track_fmu.parameters import TrackParameters
 
 from .contact_twins import ContactPair, MassesPair

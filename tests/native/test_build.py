@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 
-from build_fmus import ensure_native_fmus
+from fmu_src.building import ensure_native_fmus
 from fmu_src.native import compiler
 from fmu_src.native.compiler import TARGETS, CompilationError, this_target
 from fmu_src.native.library_cache import cached_library

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 from fmpy.validation import validate_fmu
 
-from build_fmus import KINDS, Structure, ensure_fmus, ensure_native_fmus
+from fmu_src.building import KINDS, ensure_fmus, ensure_native_fmus
+from fmu_src.structure import Structure
 from orchestrator import check_fmu
 from railcosim.builds import build_for
 from railcosim.cosim import run_system

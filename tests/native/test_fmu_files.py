@@ -15,7 +15,7 @@ import pytest
 from fmpy.validation import validate_fmu
 from lxml import etree
 
-from build_fmus import ensure_fmus
+from fmu_src.building import ensure_fmus
 from fmu_src.native import packaging
 from fmu_src.native.compiler import TARGETS, this_target
 from fmu_src.native.models import native_vehicle

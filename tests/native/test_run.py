@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-import build_fmus
+from fmu_src.building import KINDS
 from fmu_src.native import compiler
 from railcosim import builds, cli
 from railcosim.builds import build_for, usual_build
@@ -39,9 +39,7 @@ def folder(tmp_path_factory):
 
 def assert_same(case, folder):
     """Step sizes and decisions are the same; only the first guess of a Jacobian may differ."""
-    python, native = (
-        run_passage(case, fmus=kind, directory=folder / kind) for kind in build_fmus.KINDS
-    )
+    python, native = (run_passage(case, fmus=kind, directory=folder / kind) for kind in KINDS)
     for name in STEP_LOG:
         assert (python[name].to_numpy() == native[name].to_numpy()).all(), name
     for name in HISTORIES:

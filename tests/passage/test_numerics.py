@@ -5,7 +5,7 @@ import pytest
 
 from orchestrator import Master, Recorder
 from railcosim.builds import build_for
-from railcosim.coupled_system import connect, indicators, master_settings
+from railcosim.coupled_system import fmu_sources, indicators, join, master_settings
 from railcosim.motion import speed_law
 from railcosim.scenario_file import read_scenario
 from tests.throwing import Throwing
@@ -75,7 +75,7 @@ def recorded(overrides, share):
         + ["track.wheel[1].rail_displacement", "track.gauge[1].bending_moment"]
     )
     Master(
-        connect(scenario, build_for(scenario), law),
+        join(fmu_sources(scenario, build_for(scenario), law), scenario),
         settings,
         controller=controller,
         events=indicators(2),

@@ -12,9 +12,10 @@ from railcosim.receptance.report import modal_deviation
 from railcosim.receptance.study import ReceptanceStudy, midspan
 from railcosim.scenario import Scenario
 from railcosim.sections import Flat, Run
-from railcosim.track_data import ballast_law, track_parameters
+from railcosim.track_data import track_parameters
 from railcosim.track_section import Track
 from track_fmu.assembly import assemble
+from track_fmu.ballast import PolynomialBallast
 from track_fmu.modal import compute_basis
 from track_fmu.reduction import reduce_track
 from track_fmu.track_model import TrackModel, TrackOptions
@@ -131,11 +132,10 @@ def test_force_and_response_may_be_exchanged(method, preload):
 
 def static_sinking(force, position):
     """Rail displacement under a standing wheel in nonlinear equilibrium [m]."""
-    track = Scenario().track
-    parameters = track_parameters(track)
+    parameters = track_parameters(Scenario().track)
     matrices = assemble(parameters)
     reduced = reduce_track(parameters, matrices, compute_basis(matrices, mode_pairs=60))
-    model = TrackModel(reduced, TrackOptions(wheels=1), ballast=ballast_law(track))
+    model = TrackModel(reduced, TrackOptions(wheels=1), ballast=PolynomialBallast())
     model.start(np.array([position]), np.array([force]))
     return model.rail_displacement[0]
 

@@ -23,12 +23,12 @@ from railcosim.sweep.work import run_case_on_worker
 
 STUDY = """
 [sweep.grid]
-vehicle.speed_kmh = { from = 50, to = 80, step = 5 }
+vehicle.speed_kmh = { from = 50, to = 70, step = 5 }
 [keep]
 signals = ["contact_force"]
 spacing = 0.01
 """
-CASES = 7
+CASES = 5
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +55,7 @@ def test_a_sweep_killed_at_random_moments_goes_on_to_the_same_result(
         process = subprocess.Popen(
             command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
         )
-        wanted = kill + moments.randint(1, 2)  # cases: something is stored, something is left
+        wanted = kill + 1  # cases: something is stored, something is left
         while len(stored(store)) < wanted and process.poll() is None:
             time.sleep(0.01)
         time.sleep(moments.uniform(0.0, 0.15))

@@ -15,7 +15,7 @@ def measured(*, noise=0.0, seed=0, largest=60e3, count=10, sleepers=4):
     """Points of Eq. (26), those of different sleepers scattered."""
     force = np.tile(equidistant_loads(largest, count), sleepers)
     scatter = noise * np.random.default_rng(seed).normal(size=force.size)
-    return SecantData(force=force, stiffness=LAW.secant_stiffness(force) * (1 + scatter))
+    return SecantData(force=force, stiffness=(LAW.slope * force + LAW.stiffness) * (1 + scatter))
 
 
 @pytest.mark.parametrize("fit_stiffness", [False, True])

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from rich.table import Table
 
-from .summary_lines import WINDOW_CAPTION, effort_lines, result_lines, whole_run_lines
+from ..summary_lines import WINDOW_CAPTION, effort_lines, result_lines, whole_run_lines
 
 if TYPE_CHECKING:
-    from .summary import Summary
+    from ..summary import Summary
 
 
 def summary_table(summary: Summary, title: str) -> Table:

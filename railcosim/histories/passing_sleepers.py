@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .signals import SIGNALS
+from ..signals import SIGNALS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .scenario import Scenario
+    from ..scenario import Scenario
 
 
 def show_sleepers(

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Protocol
 
 from orchestrator import Recorder
 
-from .dataset import assemble
-from .run_record import attempts
+from ..dataset import assemble
+from ..run_record import attempts
+from ..signals import signals_of
 from .series import Series
-from .signals import signals_of
-from .thinned_record import FEWEST_POINTS, ThinnedRecord
+from .thinned import FEWEST_POINTS, ThinnedRecord
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -22,9 +22,9 @@ if TYPE_CHECKING:
 
     from orchestrator import Outcome
 
-    from .scenario import Scenario
-    from .signals import ContactSide
-    from .surface_tables import UnevenSurfaces
+    from ..scenario import Scenario
+    from ..signals import ContactSide
+    from ..surfaces.tables import UnevenSurfaces
 
 
 class PassageRecord(Protocol):

@@ -11,20 +11,20 @@ from typing import TYPE_CHECKING
 
 from vehicle_fmu.out_of_roundness import OutOfRoundness
 
-from .errors import RunError
-from .output import replacing
-from .support_values import support_properties
-from .surface_files import SurfaceFiles
-from .uneven_rail import compose_rail
-from .uneven_wheels import compose_treads
-from .variation import Variation
+from ..errors import RunError
+from ..output import replacing
+from ..support_values import support_properties
+from ..variation import Variation
+from .files import SurfaceFiles
+from .rail import compose_rail
+from .wheels import compose_treads
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from vehicle_fmu.irregularity import RailIrregularity
 
-    from .scenario import Scenario
+    from ..scenario import Scenario
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import h5netcdf
 
-from .errors import RunError
-from .output import OVERHEAD
-from .reserved_file import ReservedFile
+from ..errors import RunError
+from ..output import OVERHEAD
+from ..reserved_file import ReservedFile
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Mapping

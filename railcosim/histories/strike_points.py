@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .strike import WINDOW
+from ..strike import WINDOW
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

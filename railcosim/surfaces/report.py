@@ -8,13 +8,13 @@ import numpy as np
 from rich.table import Table
 from rich.text import Text
 
-from .uneven_rail import semi_axis
+from .rail import semi_axis
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .scenario import Scenario
-    from .surface_tables import UnevenSurfaces
+    from ..scenario import Scenario
+    from .tables import UnevenSurfaces
 
 
 def surface_numbers(scenario: Scenario, surfaces: UnevenSurfaces) -> dict[str, Any]:

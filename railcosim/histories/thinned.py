@@ -10,14 +10,14 @@ import xarray as xr
 
 from orchestrator import PointBlocks
 
-from .dataset import constants, count, general_attributes, label_series, with_surfaces
+from ..dataset import constants, count, general_attributes, label_series, with_surfaces
+from ..keep_section import KEPT
+from ..result_file import read_netcdf
+from ..signals import labels, signals_of
+from ..strike import PASSAGE_NUMBERS, SIGNALS_OF_A_STRIKE, strike_numbers
 from .history_file import HistoryFile
-from .keep_section import KEPT
-from .result_file import read_netcdf
 from .series import Series
-from .signals import labels, signals_of
 from .stretches import Stretches
-from .strike import PASSAGE_NUMBERS, SIGNALS_OF_A_STRIKE, strike_numbers
 from .strike_points import StrikePoints
 
 if TYPE_CHECKING:
@@ -28,9 +28,9 @@ if TYPE_CHECKING:
 
     from orchestrator import Outcome
 
-    from .scenario import Scenario
-    from .signals import ContactSide
-    from .surface_tables import UnevenSurfaces
+    from ..scenario import Scenario
+    from ..signals import ContactSide
+    from ..surfaces.tables import UnevenSurfaces
 
 FEWEST_POINTS = 2
 """Accepted points that make a result."""

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
-    from .watched_control import Progress
+    from ..watched_control import Progress
 
 INTERVAL = 0.1
 """Time between two updates [s]; the time left is estimated from the last thousand of them."""

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from .contact_loss import contact_losses
-from .signals import FORWARDS, labels
+from ..contact_loss import contact_losses
+from ..signals import FORWARDS, labels
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
-    from .signals import Signal
+    from ..signals import Signal
 
 
 @dataclass(slots=True, kw_only=True)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .dataset import count
+from ..dataset import count
 from .passing_sleepers import show_sleepers
 
 if TYPE_CHECKING:
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from .scenario import Scenario
-    from .signals import ContactSide, Signal
+    from ..scenario import Scenario
+    from ..signals import ContactSide, Signal
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

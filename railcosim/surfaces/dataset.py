@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
-from .signals import DOWN, FORWARDS
+from ..signals import DOWN, FORWARDS
 
 if TYPE_CHECKING:
-    from .surface_tables import UnevenSurfaces
+    from .tables import UnevenSurfaces
 
 
 def surface_dataset(surfaces: UnevenSurfaces) -> xr.Dataset:

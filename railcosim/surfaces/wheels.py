@@ -9,18 +9,18 @@ import numpy as np
 
 from vehicle_fmu.out_of_roundness import FULL_TURN, OutOfRoundness
 
-from .errors import InputError
-from .input_tables import read_as
-from .irregularity.contact_filter import filter_around
-from .irregularity.wheel_defects import dent, polygon
-from .uneven_rail import POINTS_PER_WAVE, check_points, semi_axis
-from .wheel_sections import MeasuredWheel, Polygon, Spall, WheelFlat
+from ..errors import InputError
+from ..input_tables import read_as
+from ..irregularity.contact_filter import filter_around
+from ..irregularity.wheel_defects import dent, polygon
+from ..wheel_sections import MeasuredWheel, Polygon, Spall, WheelFlat
+from .rail import POINTS_PER_WAVE, check_points, semi_axis
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from .scenario import Scenario
-    from .wheel_sections import WheelSection
+    from ..scenario import Scenario
+    from ..wheel_sections import WheelSection
 
 POINTS_PER_DENT, WIDEST = 100, 5e-4
 """Points in a flat or spall, but at most half a millimetre apart [m]."""

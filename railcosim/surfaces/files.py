@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from .errors import InputError
-from .variation import Variation
+from ..errors import InputError
+from ..variation import Variation
 
 if TYPE_CHECKING:
-    from .scenario import Scenario
+    from ..scenario import Scenario
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -12,14 +12,14 @@ import numpy as np
 from vehicle_fmu.contact_patch import patch_semi_axis
 from vehicle_fmu.irregularity import RailIrregularity
 
-from .errors import InputError
-from .input_tables import read_as
-from .irregularity.contact_filter import filter_along
-from .irregularity.rail_defects import corrugation, dip
-from .irregularity.spectra import fra, german, iso3095
-from .irregularity.synthesis import random_profile, signal_points
-from .irregularity.windows import onset, stretch
-from .rail_sections import (
+from ..errors import InputError
+from ..input_tables import read_as
+from ..irregularity.contact_filter import filter_along
+from ..irregularity.rail_defects import corrugation, dip
+from ..irregularity.spectra import fra, german, iso3095
+from ..irregularity.synthesis import random_profile, signal_points
+from ..irregularity.windows import onset, stretch
+from ..rail_sections import (
     Corrugation,
     FraTrack,
     GermanTrack,
@@ -27,15 +27,15 @@ from .rail_sections import (
     Joint,
     MeasuredRail,
 )
-from .vehicle_section import RAIL_RADIUS
+from ..vehicle_section import RAIL_RADIUS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from .rail_sections import RailSection
-    from .scenario import Scenario
+    from ..rail_sections import RailSection
+    from ..scenario import Scenario
 
 MOST_POINTS = 2_000_000
 """Points of a table that an FMU still reads in a few seconds."""
