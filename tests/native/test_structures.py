@@ -9,7 +9,8 @@ import pytest
 from fmpy import extract
 from fmpy.validation import validate_fmu
 
-from build_fmus import Structure, ensure_fmus, ensure_native_fmus
+from fmu_src.building import ensure_fmus, ensure_native_fmus
+from fmu_src.structure import Structure
 from orchestrator import check_fmu
 
 from .fmi_calls import OK, Calls
