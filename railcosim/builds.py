@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from numpy.linalg import LinAlgError
+
 from fmu_src.building import FmuPaths, ensure_fmus, ensure_native_fmus, folder_of
 from fmu_src.native.compiler import CompilationError
 from fmu_src.native.models import native_track
 from fmu_src.structure import PAIRS, Structure
+from track_fmu.eigensolver import EigenvalueError
 
 from .dataset import count
-from .errors import BuildError, InputError
+from .errors import BuildError, InputError, RunError
 from .start_values import track_constants
 
 if TYPE_CHECKING:
@@ -63,6 +66,8 @@ def build_for(
         For a build that there is not.
     BuildError
         Where they cannot be compiled or written.
+    RunError
+        Where the modes of a native track cannot be found.
     """
     structure = _structure(scenario)
     directory = directory or folder_of(fmus)
@@ -82,6 +87,10 @@ def build_for(
         )
     except CompilationError as error:
         raise BuildError(f"{error}; or run with --fmus python") from error
+    except (EigenvalueError, LinAlgError) as error:
+        raise RunError(
+            f"the modes of the track cannot be found ({error}); check the keys of [track]"
+        ) from error
     except OSError as error:
         raise BuildError(
             f"the FMUs cannot be written to {directory}: {error.strerror or error}; make that "

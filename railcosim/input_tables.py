@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import TYPE_CHECKING, TypeVar, cast
 
+import numpy as np
+
 from fmu_src.python.supports import make_factors
 from fmu_src.python.tables import read_table
 from fmu_src.python.track_laws import make_laws
@@ -24,6 +26,9 @@ if TYPE_CHECKING:
     from .scenario import Scenario
 
 T = TypeVar("T")
+
+STEEPEST = 1.0
+"""Largest slope of a measured rail; drops in millimetres are far beyond."""
 
 
 def read_as(
@@ -96,7 +101,35 @@ def read_irregularity(scenario: Scenario) -> RailIrregularity | None:
         For a file that is no such table.
     """
     path = scenario.vehicle.rail_irregularity
-    return read_as(RailIrregularity, path, ("position", "drop")) if path else None
+    return read_rail(path) if path else None
+
+
+def read_rail(path: str, scale: float = 1.0) -> RailIrregularity:
+    """Read a measured rail.
+
+    Parameters
+    ----------
+    path : str
+        CSV file with the columns position and drop.
+    scale : float
+        What its drops are multiplied by to be metres, for the check alone.
+
+    Raises
+    ------
+    InputError
+        For a file that is no such table, or a rail that no wheel can follow.
+    """
+    table = read_as(RailIrregularity, path, ("position", "drop"))
+    with np.errstate(over="ignore"):
+        slopes = np.abs(scale * np.diff(table.drop) / np.diff(table.position))
+    worst = int(slopes.argmax())
+    if slopes[worst] > STEEPEST:
+        raise InputError(
+            f"table {path}: the rail changes by {slopes[worst]:.3g} m per metre behind "
+            f"{table.position[worst]:g} m, but at most {STEEPEST:g} can be: give its drops in "
+            "metres, or as a table of the kind csv with a scale"
+        )
+    return table
 
 
 def check_laws(scenario: Scenario) -> None:

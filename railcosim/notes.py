@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import count
+from pathlib import Path
 from typing import TYPE_CHECKING
+
+from track_fmu.window import MOVES_PER_LENGTH
 
 from .master_section import DEFAULT_MAX_STEP, Master
 from .sections import Flat
+from .support_values import support_properties
+from .unused_keys import unused_keys
 from .wheel_sections import WheelFlat
 
 if TYPE_CHECKING:
@@ -17,6 +23,20 @@ KINKED = ("parabola", "cusp", "chord")
 
 PAIRS_PER_BAY_AT_KINKS = 8
 """Mode pairs per bay that resolve a kink; as verified, see docs/verification.md."""
+
+SUPPORTS_PER_WHEEL = 10
+"""Supports near a wheel that are enough where linear increments act; see docs/supports.md."""
+
+FREE_BAYS = 6
+"""Bays that a moving window should keep between its ends and the wheels; see docs/endless.md."""
+
+STIFFNESSES = (
+    "pad_stiffness_factor",
+    "pad_damping_factor",
+    "ballast_stiffness_factor",
+    "ballast_damping_factor",
+)
+"""What of a support is linear in its deflection."""
 
 
 def notes(scenario: Scenario, contact: ContactSide = "vehicle") -> list[str]:
@@ -30,8 +50,8 @@ def notes(scenario: Scenario, contact: ContactSide = "vehicle") -> list[str]:
             f"flat.depth has no effect: a chord of {1e3 * flat.length:g} mm is "
             f"{1e3 * depth:.3g} mm deep"
         )
-    if depth_is_given and flat.is_measured:
-        found.append(f"flat.depth has no effect: {flat.shape} brings the depth")
+    found += unused_keys(scenario)
+    found += _of_the_model(scenario)
     pairs = PAIRS_PER_BAY_AT_KINKS * scenario.track.bays
     kinked = _kinked(scenario)
     if kinked and scenario.track.retained_pairs < min(pairs, scenario.track.degrees_of_freedom):
@@ -59,6 +79,53 @@ def notes(scenario: Scenario, contact: ContactSide = "vehicle") -> list[str]:
                 "without error control unless master.algorithm is newton"
             )
     return found
+
+
+def _of_the_model(scenario: Scenario) -> list[str]:
+    """Say where few supports act, or a window is hardly longer than the vehicle in it."""
+    track, found = scenario.track, []
+    fewest = min(SUPPORTS_PER_WHEEL, track.bays - 1)
+    if track.supports_per_wheel < fewest and (
+        track.ballast_mass > 0.0 or _stiffness_differs(scenario)
+    ):
+        found.append(
+            f"supports that differ in stiffness, or ballast with a mass, act on more than the "
+            f"{track.supports_per_wheel} nearest supports of a wheel: the contact force may be off "
+            f"by 1 % of the static load; take track.supports_per_wheel={fewest}"
+        )
+    if track.endless:
+        length = scenario.vehicle.offsets[-1] / track.sleeper_spacing
+        bays = _free_bays(track.bays, length)
+        if bays < FREE_BAYS:
+            enough = next(n for n in count(track.bays) if _free_bays(n, length) >= FREE_BAYS)
+            found.append(
+                f"a window of {track.bays} bays leaves {max(bays, 0.0):.2g} of them between its "
+                "clamped ends and a wheel: the contact force may be off by 7 % of the static load "
+                f"and more; take track.bays={enough}"
+            )
+    return found
+
+
+def _stiffness_differs(scenario: Scenario) -> bool:
+    """Tell whether springs or dampers of supports are not all alike."""
+    table = scenario.track.supports
+    if table and not Path(table).is_file():
+        return False  # of a run the table is read later, a result may have outlived its own
+    own = support_properties(scenario)
+    return any((own[name] != 1.0).any() for name in STIFFNESSES)
+
+
+def _free_bays(bays: int, length: float) -> float:
+    """Return the bays between a window's end and the nearest wheel when the window must move.
+
+    Parameters
+    ----------
+    bays : int
+        Of the window.
+    length : float
+        From the first wheel to the last one, in bays.
+    """
+    return 0.5 * (bays - length - max(1, bays // MOVES_PER_LENGTH) - 1)
 
 
 def _kinked(scenario: Scenario) -> list[str]:

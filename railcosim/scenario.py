@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 
+from fmu_src.python.support_table import LARGEST_NUMBER
+from track_fmu.window import FARTHEST
+
 from .errors import InputError
 from .keep_section import Keep
 from .master_section import Master
@@ -85,12 +88,21 @@ class Scenario:
 
     @property
     def supports(self) -> int:
-        """Number of supports from the first one on that the track has or the passage reaches."""
+        """Number of supports from the first one on that the track has or the passage reaches.
+
+        Where all those of an endless track are nominal, as many as its window has.
+        """
         track = self.track
-        if not track.endless:
+        if not (track.endless and (track.supports or self.variation.is_any)):
             return track.bays - 1
+        return min(self._supports_reached, LARGEST_NUMBER)
+
+    @property
+    def _supports_reached(self) -> int:
         end = max(self.start_position, 0.0) + self.distance
-        return math.ceil(end / track.sleeper_spacing) + track.bays  # the window is never so far
+        return (
+            math.ceil(end / self.track.sleeper_spacing) + self.track.bays
+        )  # the window's are less
 
     @property
     def struck_bay(self) -> int:
@@ -191,10 +203,11 @@ class Scenario:
         )
 
     def _check_end_of_track(self) -> None:
-        """Refuse a run that leads a wheel beyond the track, which an endless one has no end for."""
-        if self.track.endless:
-            return
+        """Refuse a run that leads a wheel beyond the track, or beyond what is known of it."""
         end = self.start_position + self.distance
+        if self.track.endless:
+            self._check_reach(end)
+            return
         beyond = end - self.track.length
         if beyond <= 0.0:
             return
@@ -207,6 +220,20 @@ class Scenario:
             f"wheel 1 would end at {end:g} m but the track ends at {self.track.length:g} m: "
             f"{remedy}{'or ' if remedy else ''}raise track.bays, or set track.endless"
         )
+
+    def _check_reach(self, end: float) -> None:
+        """Refuse positions on an endless track that lose their digits, or too many supports."""
+        if end > FARTHEST:
+            raise InputError(
+                f"wheel 1 would end at {end:g} m but positions may be at most {FARTHEST:g} m: "
+                "shorten run.departure or put flat.position nearer to 0 m"
+            )
+        if self.variation.is_any and self._supports_reached > LARGEST_NUMBER:
+            raise InputError(
+                f"[variation] would describe {self._supports_reached} supports from 0 m to the end "
+                f"of the run at {end:g} m, but at most {LARGEST_NUMBER} can be described: put "
+                "flat.position nearer to 0 m, or name a track.supports with track.supports_repeat"
+            )
 
 
 def _rounded_down(length: float) -> float:

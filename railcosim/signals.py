@@ -167,7 +167,7 @@ SIGNALS = (
         source="track.ballast[k].force",
         dim="sleeper",
         units="N",
-        long_name="force in ballast and subgrade",
+        long_name="force in ballast and subgrade beyond that at rest",
         sign=COMPRESSION,
     ),
     Signal(

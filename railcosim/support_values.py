@@ -46,7 +46,7 @@ def support_properties(scenario: Scenario) -> dict[str, NDArray[np.float64]]:
     Raises
     ------
     InputError
-        For a table that cannot be used.
+        For a table that cannot be used, or a sleeper that nothing holds.
     """
     track, variation, supports = scenario.track, scenario.variation, scenario.supports
     values = _table_values(track, supports)
@@ -68,6 +68,10 @@ def support_properties(scenario: Scenario) -> dict[str, NDArray[np.float64]]:
     values["fastened"][variation.listed("missing_fastenings", supports)] = 0.0
     for name in ("pad_stiffness_factor", "pad_damping_factor"):
         values[name][variation.listed("missing_pads", supports)] = 0.0
+    try:
+        make_factors(values)
+    except ValueError as error:
+        raise InputError(str(error)) from error
     return values
 
 

@@ -61,10 +61,22 @@ class Variation:
                 object.__setattr__(self, key, str(value))  # one support, written as a number
         check_fields(self, "variation")
 
+    @property
+    def is_any(self) -> bool:
+        """Whether there is a key that is not as if there were no section."""
+        return self != Variation()
+
     def listed(self, key: str, supports: int) -> list[int]:
         """Return which of so many supports a key of `LISTS` names, counted from 0."""
         parts = Numbers.read(getattr(self, key))
         return [k for part in parts for k in range(part[0] - 1, min(part[-1], supports))]
+
+    def last_listed(self) -> dict[str, int]:
+        """Return the largest number that each key of `LISTS` names, 0 where it names none."""
+        return {
+            key: max((part[-1] for part in Numbers.read(getattr(self, key))), default=0)
+            for key in LISTS
+        }
 
     def check_supports(self, supports: int) -> None:
         """Refuse lists that name supports which a track does not have.
@@ -74,8 +86,7 @@ class Variation:
         InputError
             With the key and the number.
         """
-        for key in LISTS:
-            last = max((part[-1] for part in Numbers.read(getattr(self, key))), default=0)
+        for key, last in self.last_listed().items():
             if last > supports:
                 raise InputError(
                     f"variation.{key} names support {last} but the track has {supports}: name "

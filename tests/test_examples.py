@@ -75,9 +75,13 @@ def test_contact_on_track(tmp_path, baseline):
 
 
 def test_varying_track():
-    """Python FMUs give the same to 13 digits; no other program has this track."""
+    """Within 0.1 % of the monolithic solution's peak; docs/verification.md compares all of F(t)."""
     passage = run_passage(read_scenario(EXAMPLES / "varying_track.toml"), fmus="native")
-    assert summarise(passage).peak_contact_force == pytest.approx(299.09e3, rel=1e-3)
+    assert summarise(passage).peak_contact_force == pytest.approx(299.60e3, rel=1e-3)
+    # sleepers rise from the ballast, which loses the weight on it and no more
+    weight = 9.81 * (125.0 + 60.0 * 0.65)
+    assert float(passage["ballast_force"].min()) == pytest.approx(-weight, rel=1e-4)
+    assert float(passage["sleeper_displacement"].min()) == pytest.approx(-0.178e-3, rel=0.02)
 
 
 def test_moving_ballast():
@@ -88,16 +92,12 @@ def test_moving_ballast():
     assert float(passage["ballast_force"].max()) == pytest.approx(109.28e3, rel=2e-3)
 
 
-@pytest.mark.parametrize(
-    ("name", "peak", "smallest"),
-    [("uneven_rail", 173.35e3, 64.23e3), ("worn_wheels", 272.26e3, 27.03e3)],
-)
-def test_uneven_surfaces(tmp_path, name, peak, smallest):
+def test_uneven_rail(tmp_path):
     """Forces of both wheels, by this implementation; tests/passage holds its parts to others."""
-    scenario = read_scenario(EXAMPLES / f"{name}.toml")
+    scenario = read_scenario(EXAMPLES / "uneven_rail.toml")
     force = run_passage(scenario, fmus="native", directory=tmp_path)["contact_force"]
-    assert force.max() == pytest.approx(peak, rel=2e-3)
-    assert force.min() == pytest.approx(smallest, abs=500.0)
+    assert force.max() == pytest.approx(173.35e3, rel=2e-3)
+    assert force.min() == pytest.approx(64.23e3, abs=500.0)
 
 
 def on_both_sides(name):
@@ -118,15 +118,22 @@ def largest(result, name):
     return float(result[name].max())
 
 
+def test_worn_wheels():
+    """With all nodes and no FMUs all forces are within 0.6 kN (docs/verification.md)."""
+    for result in on_both_sides("worn_wheels"):
+        assert largest(result, "contact_force") == pytest.approx(263.48e3, rel=5e-4)
+        assert float(result["contact_force"].min()) == pytest.approx(27.09e3, abs=50.0)
+
+
 def test_bridge_transition():
     """The rail bends over the hanging sleepers, the wheels hardly notice."""
     for result in on_both_sides("bridge_transition"):
-        assert largest(result, "contact_force") == pytest.approx(105.40e3, rel=1e-3)
-        assert largest(result, "bending_moment_under_wheel") == pytest.approx(26.38e3, rel=2e-3)
+        assert largest(result, "contact_force") == pytest.approx(105.52e3, rel=1e-3)
+        assert largest(result, "bending_moment_under_wheel") == pytest.approx(26.26e3, rel=2e-3)
         sleepers = result["sleeper_displacement"].max("time")
         # embankment, the two that hang by 1 mm, bridge
         found = sleepers.sel(sleeper=[19, 23, 24, 32]).to_numpy()
-        assert found == pytest.approx([3.777e-4, 1.3264e-3, 1.3232e-3, 2.146e-4], rel=2e-3)
+        assert found == pytest.approx([3.776e-4, 1.3230e-3, 1.3210e-3, 2.140e-4], rel=2e-3)
 
 
 def test_missing_fastenings():

@@ -11,7 +11,7 @@ import numpy as np
 from .assembly import IntArray
 from .beam_element import FloatArray
 from .component_law import MemorylessLaw, Tangents
-from .total_ballast import ONSET, TINY, TotalBallast, secant
+from .total_ballast import TINY, Contact, TotalBallast, secant
 
 
 class _Mass(NamedTuple):
@@ -29,8 +29,8 @@ class HeavyBallast(MemorylessLaw):
     Ballast of the mass ``m(x)`` under a rail seat that moves along has the kinetic energy
     ``m x'^2 / 2`` and adds ``m x'' + m_x x'^2 / 2``. It is constant, or grows as the secant
     stiffness does, ``m(x) = m_0 e(x) / (k x)``, like the damping of Eq. (29). Where a sleeper can
-    lift off, the mass moves along while the ballast is pressed and sets in over `ONSET`; the total
-    force of the ballast is never negative then, its inertia included.
+    lift off, the mass moves along while the ballast is pressed and sets in as the damping does; the
+    total force is not below the least one of `TotalBallast` then, its inertia included.
 
     A sleeper heavier than the nominal one by ``M`` adds ``M x''`` always.
 
@@ -93,10 +93,10 @@ class HeavyBallast(MemorylessLaw):
     ) -> FloatArray:
         """Force increment [N]; see `InertialLaw.moving_force`."""
         bed, parts = self.bed, self.bed.parts(deformation, support)
-        moved = self._moved(deformation, support)
+        moved = self._moved(deformation, support, parts.contact)
         total = parts.load + parts.damping * rate
         total = total + moved.mass * acceleration + 0.5 * moved.slope * rate * rate
-        total = np.where((parts.loose > 0.0) & (total < 0.0), 0.0, total)
+        total = np.maximum(total, parts.contact.least)
         linear = bed.linear_stiffness * deformation + bed.linear_damping * rate
         return np.asarray(total - linear + self.sleeper_mass[support] * acceleration)
 
@@ -105,10 +105,10 @@ class HeavyBallast(MemorylessLaw):
     ) -> Tangents:
         """Its derivatives; see `InertialLaw.moving_tangents`."""
         bed, parts = self.bed, self.bed.parts(deformation, support)
-        moved = self._moved(deformation, support)
+        moved = self._moved(deformation, support, parts.contact)
         total = parts.load + parts.damping * rate
         total = total + moved.mass * acceleration + 0.5 * moved.slope * rate * rate
-        lifted = (parts.loose > 0.0) & (total < 0.0)
+        lifted = total < parts.contact.least
         by_deformation = parts.tangent + parts.damping_slope * rate
         by_deformation += moved.slope * acceleration + 0.5 * moved.bend * rate * rate
         by_rate = parts.damping + moved.slope * rate
@@ -118,10 +118,9 @@ class HeavyBallast(MemorylessLaw):
             mass=np.where(lifted, 0.0, moved.mass) + self.sleeper_mass[support],
         )
 
-    def _moved(self, deformation: FloatArray, support: IntArray) -> _Mass:
+    def _moved(self, deformation: FloatArray, support: IntArray, contact: Contact) -> _Mass:
         bed = self.bed
-        gap = bed.factors.gap[support]
-        x = deformation - gap
+        x = deformation - bed.factors.gap[support]
         mass, slope, bend = np.full_like(x, self.mass), np.zeros_like(x), np.zeros_like(x)
         if self.grows:
             jet, scale = bed.characteristic.jet(x), self.mass / bed.linear_stiffness
@@ -132,11 +131,8 @@ class HeavyBallast(MemorylessLaw):
             mass = np.where(there, scale * (bed.linear_stiffness + excess), 0.0)
             slope = np.where(there, scale * excess_slope, 0.0)
             bend = np.where(there & ~small, scale * bend, 0.0)
-        loose = (gap > 0.0) | (not bed.pulls)
-        share = np.where(loose, np.minimum(np.maximum(x, 0.0) / ONSET, 1.0), 1.0)
-        share_slope = np.where(loose & (x > 0.0) & (x < ONSET), 1.0 / ONSET, 0.0)
         return _Mass(
-            share * mass,
-            share * slope + share_slope * mass,
-            share * bend + 2.0 * share_slope * slope,
+            contact.share * mass,
+            contact.share * slope + contact.slope * mass,
+            contact.share * bend + 2.0 * contact.slope * slope + contact.bend * mass,
         )

@@ -7,6 +7,9 @@ from dataclasses import dataclass, fields
 
 from .beam_element import BeamSection
 
+GRAVITY = 9.81
+"""Acceleration of free fall [m/s2]."""
+
 SLEEPERS = ("rigid", "beam")
 """What a sleeper may be."""
 

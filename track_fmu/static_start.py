@@ -120,8 +120,8 @@ def _solve(matrix: FloatArray, miss: FloatArray) -> FloatArray:
         return np.asarray(np.linalg.solve(matrix, miss))
     except np.linalg.LinAlgError as error:
         raise RuntimeError(
-            "track: a part of the track is held by nothing in static equilibrium; fasten the rail "
-            "on sleepers that hang, or let their ballast pull"
+            "track: a part of the track is held by nothing in static equilibrium; use loads on "
+            "ballast and pads that rise with displacement"
         ) from error
 
 

@@ -44,7 +44,8 @@ class SupportFactors:
     Raises
     ------
     ValueError
-        For a value that is not a number of at least 0, or of at least `LEAST_MASS`.
+        For a value that is not a number of at least 0, or of at least `LEAST_MASS`, and for a
+        sleeper that neither its ballast nor the rail holds.
     """
 
     pad_stiffness: FloatArray
@@ -66,6 +67,23 @@ class SupportFactors:
                     f"track: {name} = {float(values[wrong[0]])!r} of support "
                     f"{wrong[0] + 1} must be a finite number, at least {least:g}"
                 )
+
+        self._refuse_free_sleepers()
+
+    def _refuse_free_sleepers(self) -> None:
+        """Refuse what would have fallen down before the track is at rest."""
+        hangs = (self.gap > 0.0) | (self.ballast_stiffness == 0.0)
+        free = hangs & ((self.pad_stiffness == 0.0) | (self.fastened == 0.0))
+        if not free.any():
+            return
+        number = int(np.argmax(free))
+        below = f"a gap of {self.gap[number]:g} m" if self.gap[number] > 0.0 else "no ballast"
+        padless = self.pad_stiffness[number] == 0.0
+        above = "no pad ties it to the rail" if padless else "the rail is not fastened"
+        raise ValueError(
+            f"track: the sleeper of support {number + 1} is held by nothing: there is {below} "
+            f"under it and {above}; let it rest on its ballast or hang from the rail"
+        )
 
     @classmethod
     def nominal(cls, supports: int) -> SupportFactors:

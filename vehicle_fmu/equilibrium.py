@@ -13,6 +13,7 @@ Footing: TypeAlias = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 contact [N/m], for displacements of the wheels [m]; all of shape (wheels,)."""
 
 TOLERANCE = 1e-12  # of the static load of a wheel
+ROUNDING = 1e-15  # of the displacements; stiff treads feel it
 MAX_SWEEPS = 100
 OVERSHOOT = 0.1  # slope of the energy behind a change over the fall before it
 SMALLEST_SHARE = 1e-3  # of a change
@@ -88,6 +89,8 @@ def settle(suspension: Suspension, q: FloatArray, footing: Footing | None = None
             change = np.linalg.solve(_stiffness(suspension, q, footing), miss)
         except np.linalg.LinAlgError:
             break  # heights beyond all numbers
+        if float(np.abs(change).max()) <= ROUNDING * float(np.abs(q).max()):
+            return q
         fall, share = float(change @ miss), 1.0
         while True:
             there = q + share * change

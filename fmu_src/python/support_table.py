@@ -86,6 +86,8 @@ def _numbers(where: str, names: Sequence[str], cells: Sequence[str]) -> dict[str
             value = math.nan
         if not (math.isfinite(value) and value >= 0.0):
             raise ValueError(f"{where}: {name} is {cell!r}, not a number of at least 0")
+        if name == "fastened" and value not in {0.0, 1.0}:
+            raise ValueError(f"{where}: fastened is {cell!r}, neither 1 nor 0")
         values[name] = value
     return values
 

@@ -35,8 +35,8 @@ def read_table(
     Raises
     ------
     ValueError
-        If the file cannot be read, a line has the wrong number of values or a value is not a
-        finite number; the message names file and line.
+        If the file cannot be read, a line has decimal commas or the wrong number of values or a
+        value is not a finite number; the message names file and line.
     """
     text = read_text(path)
     rows: list[list[float]] = []
@@ -51,6 +51,11 @@ def read_table(
             header_allowed = False
             continue
         header_allowed = False
+        if "," in content and ";" in content:
+            raise ValueError(
+                f"table {path}, line {number}: has both commas and semicolons; write decimals with "
+                "a point"
+            )
         if not rows:
             names += optional[: max(0, len(cells) - len(columns))]
         rows.append(_numbers(cells, names, f"table {path}, line {number}"))

@@ -16,7 +16,7 @@ from track_fmu.characteristics import (
 from track_fmu.component_law import ComponentLaw
 from track_fmu.heavy_ballast import HeavyBallast
 from track_fmu.pads import TotalPad
-from track_fmu.parameters import TrackParameters
+from track_fmu.parameters import GRAVITY, TrackParameters
 from track_fmu.preloaded_pad import PreloadedPad
 from track_fmu.support_factors import SupportFactors
 from track_fmu.total_ballast import TotalBallast
@@ -90,6 +90,8 @@ def _ballast_law(
         linear_stiffness=track.ballast_stiffness,
         linear_damping=track.ballast_damping,
         factors=factors,
+        sleeper_weight=GRAVITY * track.sleeper_mass,
+        rail_weight=GRAVITY * track.mass_per_length * track.sleeper_spacing,
         tangent_damping=tangent,
         pulls=pulls,
     )

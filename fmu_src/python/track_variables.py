@@ -93,7 +93,7 @@ def track_outputs(
         ("pad", "force", "pad_force", supports, "N", 1e4,
          "Force in the rail pad on sleeper {}, compression positive"),
         ("ballast", "force", "ballast_force", supports, "N", 1e4,
-         "Force on the ballast under sleeper {}, compression positive"),
+         "Force on the ballast under sleeper {} beyond that at rest, compression positive"),
         ("sleeper", "bending_moment", "sleeper_moment", supports, "N.m", 1e3,
          "Bending moment of sleeper {} at its rail seat, sagging positive; 0 where it is rigid"),
         ("sleeper", "centre_bending_moment", "sleeper_centre_moment", supports, "N.m", 1e3,

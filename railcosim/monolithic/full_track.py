@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +16,7 @@ from track_fmu.assembly import TrackMatrices, to_banded
 from track_fmu.reduction import moment_operators
 from track_fmu.sleeper_observation import sleeper_operators
 
-from .linear_track import BentSleepers, Feedthrough, Matrix, Ports
+from .linear_track import BedAccelerations, BentSleepers, Feedthrough, Matrix, Ports
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -63,6 +64,20 @@ class FullTrack:
         self._dofs = np.hstack([matrices.numbering.rail[:-1], matrices.numbering.rail[1:]])
         self._moments = moment_operators(parameters, matrices)
         self._sleepers = sleeper_operators(parameters, matrices)
+
+    @cached_property
+    def beds(self) -> BedAccelerations:
+        """See `LinearTrack.beds`; sleepers share no mass with the rail or with each other."""
+        matrices = self._matrices
+        sleepers = matrices.ballast_incidence
+        answer = sp.csr_array(
+            cho_solve_banded((self._factor, True), sleepers.toarray(), check_finite=False).T
+        )
+        return BedAccelerations(
+            sp.csr_array(sp.hstack([-answer @ self._stiffness, -answer @ self._damping])),
+            (answer @ sleepers).diagonal(),
+            (answer @ matrices.pad_incidence).diagonal(),
+        )
 
     @property
     def _size(self) -> int:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy.sparse as sp
 
+from .bed_inertia import bed_parts
 from .blocks import DENSE, SPARSE
 
 if TYPE_CHECKING:
@@ -84,9 +85,27 @@ def _of_forces(
     if len(memory):
         by_memory = -system.laws.by_memory(now.displacement[w:], memory)
         forces = forces + _remembered(system, np.append(np.zeros(w), by_memory), blocks)
+    if now.forces.by_acceleration is not None:
+        forces = _with_inertia(system, now.forces.by_acceleration, forces, blocks)
     if now.feedthrough is None:
         return forces
     return np.linalg.solve(now.forces.sensitivity(now.feedthrough), forces)
+
+
+def _with_inertia(
+    system: CoupledSystem, by_acceleration: NDArray[np.float64], forces: Matrix, blocks: Blocks
+) -> Matrix:
+    """Add what beds answer to accelerations, to which their own forces contribute, (p, n)."""
+    beds, (above, under, behind) = system.track.beds, bed_parts(system.laws, forces.shape[0])
+    assert beds is not None  # or nothing depends on accelerations
+    mass = by_acceleration[under]
+    free = _padded(system, beds.of_state, blocks)
+    if system.laws.pads_have_ports:
+        free = free + sp.diags_array(beds.of_pad) @ forces[behind]
+    borne = sp.diags_array(1.0 / (1.0 - mass * beds.of_bed)) @ (
+        forces[under] + sp.diags_array(mass) @ free
+    )
+    return blocks.stack([forces[above], borne, forces[behind]])
 
 
 def _of_memories(

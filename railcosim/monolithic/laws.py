@@ -69,9 +69,9 @@ class Damping(NamedTuple):
 
 
 def spring_and_damper(
-    load: tuple[Array, Array], damping: Damping, rate: Array, *, loose: NDArray[np.bool_]
+    load: tuple[Array, Array], damping: Damping, rate: Array, *, least: Array
 ) -> Tangent:
-    """Add both forces; where things are loose, only what presses is left.
+    """Add both forces, as far as they can be borne.
 
     Parameters
     ----------
@@ -81,24 +81,22 @@ def spring_and_damper(
         Of the damper, which has set in as far as it does.
     rate : ndarray, shape (n,)
         [m/s].
-    loose : ndarray of bool, shape (n,)
-        What cannot pull.
+    least : ndarray, shape (n,)
+        Least force [N]; minus infinity where all is borne.
     """
     force = load[0] + damping.coefficient * rate
-    left = ~(loose & (force < 0.0))
+    left = ~(force < least)
     return Tangent(
-        left * force, left * (load[1] + damping.slope * rate), left * damping.coefficient
+        np.where(left, force, least),
+        left * (load[1] + damping.slope * rate),
+        left * damping.coefficient,
     )
 
 
-def setting_in(damping: Damping, compression: Array, *, loose: NDArray[np.bool_]) -> Damping:
-    """Let dampers of what is loose set in over `ONSET` and be gone without compression."""
-    share = np.clip(compression / ONSET, 0.0, 1.0)
-    rise = ((compression > 0.0) & (compression < ONSET)) / ONSET
-    return Damping(
-        np.where(loose, share, 1.0) * damping.coefficient,
-        np.where(loose, share * damping.slope + rise * damping.coefficient, damping.slope),
-    )
+def setting_in(damping: Damping, share: Array, slope: Array) -> Damping:
+    """Let dampers set in to shares from 0 to 1, which change so much with displacement [1/m]."""
+    share, slope = np.clip(share, 0.0, 1.0), ((share > 0.0) & (share < 1.0)) * slope
+    return Damping(share * damping.coefficient, share * damping.slope + slope * damping.coefficient)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -126,18 +124,29 @@ class BallastLaw:
     supports: SupportProperties
 
     def tangent(self, sinking: Array, rate: Array) -> Tangent:
-        """Return the force under sleepers that sink [m] at a rate [m/s], (supports,) each."""
+        """Return the force under sleepers that sink [m] at a rate [m/s], (supports,) each.
+
+        It is counted from the track at rest; what lies on the ballast then can be taken off it.
+        """
         own = self.supports
         compression = sinking - own.gap
         jet = self.curve.jet(compression)
-        there = ~own.sleeper_lifts | (compression > 0.0)
-        stiffness = there * own.ballast_stiffness
-        damper = setting_in(self._damping(compression), compression, loose=own.sleeper_lifts)
+        load, slope = own.ballast_stiffness * jet.load, own.ballast_stiffness * jet.slope
+        onset = ONSET * own.own.ballast_stiffness
+        onset = np.where(own.dead_load > 0.0, np.minimum(onset, own.dead_load), onset)
+        onset = np.where(onset > 0.0, onset, 1.0)
+        pressed = np.where(own.sleeper_lifts, load + own.dead_load, onset)
+        there = pressed > 0.0
+        damper = setting_in(
+            self._damping(compression),
+            pressed / onset,
+            np.where(own.sleeper_lifts, slope, 0.0) / onset,
+        )
         return spring_and_damper(
-            (stiffness * jet.load, stiffness * jet.slope),
-            Damping(*(there * own.ballast_damping * part for part in damper)),
+            (np.where(there, load, -own.dead_load), there * slope),
+            Damping(*(own.ballast_damping * part for part in damper)),
             rate,
-            loose=own.sleeper_lifts,
+            least=np.where(own.sleeper_lifts, -own.dead_load, -np.inf),
         )
 
     def _damping(self, compression: Array) -> Damping:

@@ -54,6 +54,22 @@ class Feedthrough(NamedTuple):
     mobility: NDArray[np.float64]
 
 
+class BedAccelerations(NamedTuple):
+    """How the ports under all sleepers accelerate; nothing on the rail moves them at once.
+
+    Attributes
+    ----------
+    of_state : array, shape (supports, n)
+        From the state [m/s2].
+    of_bed, of_pad : ndarray, shape (supports,)
+        What a unit force on the port under the same sleeper, and on that of its pad, adds [1/kg].
+    """
+
+    of_state: Matrix
+    of_bed: NDArray[np.float64]
+    of_pad: NDArray[np.float64]
+
+
 class BentSleepers(NamedTuple):
     """What is seen of sleepers that bend, shape (supports, times) each.
 
@@ -86,6 +102,8 @@ class LinearTrack(Protocol):
         How large a component of the state is where displacements are one metre.
     supports : Ports
         Under all sleepers, then at all pads if those have ports.
+    beds : BedAccelerations or None
+        Of the ports under the sleepers; None where accelerations do not follow from the state.
     """
 
     parameters: TrackParameters
@@ -93,6 +111,11 @@ class LinearTrack(Protocol):
     mass: sp.csc_array | None
     scale: NDArray[np.float64]
     supports: Ports
+
+    @property
+    def beds(self) -> BedAccelerations | None:
+        """See the attribute."""
+        ...
 
     def begin(
         self, displacement: NDArray[np.float64], velocity: NDArray[np.float64]

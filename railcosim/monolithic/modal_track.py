@@ -43,6 +43,7 @@ class ModalTrack:
     """
 
     mass: sp.csc_array | None = None
+    beds = None  # the accelerations of the modes that are left out are not known
 
     def __init__(
         self,

@@ -103,9 +103,12 @@ def _observe(
     supports = parameters.supports
     seats = beds = displacement[w : w + supports]
     bed_rate = (track.supports.output @ own_rate)[:supports]
+    inertia = base.ballast_mass[:, None] * (track.supports.rate @ own_rate)[:supports]
     of_sleepers: dict[str, Array] = {}
     if parameters.sleeper == "beam":
-        seats, beds, bed_rate, moments = track.bent_sleepers(own, own_rate, loads)
+        borne = loads.copy()
+        borne[len(loads) - len(force) + w :][:supports] -= inertia
+        seats, beds, bed_rate, moments = track.bent_sleepers(own, own_rate, borne)
         of_sleepers = dict(zip(SLEEPER_MOMENTS, moments, strict=True))
     bodies = system.vehicle.observe(state[parts[1]], state[parts[2]], rates[parts[2]])
     return of_sleepers | {
@@ -124,6 +127,7 @@ def _observe(
         "pad_force": pad_force,
         "ballast_force": base.ballast_stiffness[:, None] * beds
         + base.ballast_damping[:, None] * bed_rate
+        + inertia
         - force[w : w + supports],
         "bending_moment": at_gauges,
     }

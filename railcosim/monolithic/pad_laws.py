@@ -15,7 +15,7 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from .curves import PiecewiseCurve
-from .laws import Damping, Tangent, setting_in, spring_and_damper
+from .laws import ONSET, Damping, Tangent, setting_in, spring_and_damper
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -94,11 +94,12 @@ class ElasticPads:
         there = ~own.rail_lifts | (compression > 0.0)
         spring = there * own.pad_stiffness
         damper = Damping(there * own.own.pad_damping, np.zeros_like(compression))
+        share = np.where(own.rail_lifts, compression / ONSET, 1.0)
         return spring_and_damper(
             (spring * jet.load, spring * jet.slope),
-            setting_in(damper, compression, loose=own.rail_lifts),
+            setting_in(damper, share, np.full_like(share, 1.0 / ONSET)),
             rate,
-            loose=own.rail_lifts,
+            least=np.where(own.rail_lifts, 0.0, -np.inf),
         )
 
     def relaxed(self, compression: Array) -> Array:
@@ -155,7 +156,7 @@ class RelaxingPads:
             (there * force, there * (spring * load.slope + branch * primitive.slope)),
             Damping(np.zeros_like(x), np.zeros_like(x)),
             rate,
-            loose=self.supports.rail_lifts,
+            least=np.where(self.supports.rail_lifts, 0.0, -np.inf),
         )
 
     def relaxed(self, compression: Array) -> Array:

@@ -29,11 +29,14 @@ class PortForces(NamedTuple):
         Contact forces, then minus what ballast and pads bear beyond the matrices [N].
     by_displacement, by_rate : ndarray, shape (p,)
         Derivatives of the laws by the displacement [N/m] and velocity [N s/m] of their own port.
+    by_acceleration : ndarray, shape (p,), or None
+        Likewise by its acceleration [kg]; None where nothing depends on that.
     """
 
     force: NDArray[np.float64]
     by_displacement: NDArray[np.float64]
     by_rate: NDArray[np.float64]
+    by_acceleration: NDArray[np.float64] | None = None
 
     def sensitivity(self, feedthrough: Feedthrough | None) -> NDArray[np.float64]:
         """Return what is left of a force on each port once all others answer, shape (p, p)."""

@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
+from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 from threadpoolctl import threadpool_limits
-
-from fmu_src.python.basis_cache import cached_basis
-from track_fmu.assembly import assemble
-from track_fmu.reduction import reduce_track
 
 from ..dataset import assemble as label
 from ..errors import InputError
@@ -18,22 +14,14 @@ from ..input_tables import check_profiles
 from ..run_record import ATTEMPT_COLUMNS, programs
 from ..summary import CAUSES
 from ..surfaces.tables import compose
-from ..track_data import track_parameters
 from ..watched_control import Progress
 from .course import course_of
-from .full_track import FullTrack, port_incidence
 from .held_track import held_track
 from .integration import integrate
 from .integrators import Accuracy
-from .laws import HertzLaw
-from .modal_track import ModalTrack
 from .observation import Observer
-from .rail_places import RailPlaces
-from .scenario_vehicle import vehicle_of
-from .standing import stand
-from .static_start import static_start
-from .support_laws import support_laws
-from .system import ContactForm, CoupledSystem
+from .scenario_system import Model, make_system
+from .system import ContactForm
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -41,17 +29,8 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
-    from track_fmu.assembly import TrackMatrices
-
     from ..scenario import Scenario
-    from ..track_section import Track
-    from .course import Course
-    from .held_track import HeldTrack
     from .integration import Effort
-    from .support_laws import SupportLaws
-
-Model: TypeAlias = Literal["modal", "full"]
-"""Coordinates of the track: retained modes with residual flexibility, or all nodes."""
 
 SAMPLING = 5e-5
 """Distance of the times of a result where none are given [s]."""
@@ -140,85 +119,6 @@ def solve(
         },
         attributes=attributes | _statistics(effort, stop, time.perf_counter() - begun),
     )
-
-
-def make_system(
-    scenario: Scenario,
-    held: HeldTrack,
-    course: Course,
-    *,
-    model: Model,
-    contact_form: ContactForm,
-) -> tuple[CoupledSystem, NDArray[np.float64]]:
-    """Return the system of a scenario and its state at t = 0.
-
-    The track starts in the static equilibrium of its full model, moving along, with relaxed pads
-    and, as in the FMUs, with nominal dampers: sleepers that hang free are long in forgetting those.
-    The vehicle starts in its own equilibrium on that; see `stand`.
-
-    Parameters
-    ----------
-    scenario : Scenario
-        What passes,
-    held : HeldTrack
-        over which track,
-    course : Course
-        and on which way.
-    model, contact_form
-        See `solve`.
-    """
-    parameters = track_parameters(held.keys)
-    laws = support_laws(scenario, held.keys, all_in_matrices=model == "full")
-    nominal = assemble(parameters)
-    matrices = laws.base.put_into(nominal, laws.supports.nominal)
-    full = FullTrack(parameters, matrices, pad_ports=laws.pads_have_ports)
-    places = RailPlaces(
-        course=course,
-        parameters=parameters,
-        begin=held.begin,
-        elements=np.zeros(len(course.starts), dtype=np.intp),
-    ).moved_to(0.5 * min([*course.kinks.tolist(), course.stop_time]))
-    load = scenario.vehicle.static_wheel_load
-    shapes, slopes = (
-        full.wheels(places.elements, weights).output[:, : matrices.numbering.size]
-        for weights in (places.shapes(0.0), places.slopes(0.0))
-    )
-    contact = HertzLaw(coefficient=scenario.vehicle.hertz_coefficient)
-    vehicle = vehicle_of(scenario)
-    at_supports = support_laws(scenario, held.keys, all_in_matrices=False)
-
-    def deflected(loads: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        rate = course.speed(0.0) * (loads @ slopes)
-        return static_start(nominal, at_supports, load=loads @ shapes, load_rate=rate)
-
-    standing = stand(
-        vehicle, contact, course, load=load, sag=lambda loads: shapes @ deflected(loads)[0]
-    )
-    system = CoupledSystem(
-        track=full if model == "full" else _modal(held.keys, matrices, laws),
-        vehicle=vehicle,
-        places=places,
-        contact=contact,
-        laws=laws,
-        form=contact_form,
-        static_load=load,
-        rest=standing.rest,
-    )
-    displacement, velocity = deflected(standing.loads)
-    ports = port_incidence(matrices, pad_ports=laws.pads_have_ports)
-    memory = laws.relaxed(ports.T @ displacement)
-    own = system.track.begin(displacement, velocity)
-    return system, system.begin(own, standing.place, standing.rate, memory)
-
-
-def _modal(keys: Track, matrices: TrackMatrices, laws: SupportLaws) -> ModalTrack:
-    """Return the track in its retained modes."""
-    parameters = track_parameters(keys)
-    basis = cached_basis(parameters, matrices, mode_pairs=keys.retained_pairs)
-    reduced = reduce_track(
-        parameters, matrices, basis, residual_flexibility=keys.residual_flexibility
-    )
-    return ModalTrack(reduced, matrices, basis, pad_ports=laws.pads_have_ports)
 
 
 def _sampling(times: NDArray[np.float64] | None, stop: float) -> NDArray[np.float64]:

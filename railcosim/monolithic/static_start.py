@@ -122,8 +122,8 @@ def _factor(matrices: TrackMatrices, ports: sp.csc_array, small: SmallMotion) ->
         return splu(sp.csc_array(matrices.stiffness + tangent))
     except RuntimeError as error:
         raise RunError(
-            "a part of the track is held by nothing in static equilibrium: fasten the rail on "
-            "sleepers that hang, or let their ballast pull"
+            "a part of the track is held by nothing in static equilibrium: use loads on ballast "
+            "and pads that rise with displacement"
         ) from error
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -12,8 +12,9 @@ from fmu_src.python.track_laws import CHARACTERISTIC, read_pad
 from ..errors import InputError
 from .curves import PowerCurve, ballast_curve, point_curve
 from .laws import BallastLaw, Tangent
+from .moving_ballast import MovingBallast
 from .pad_laws import ElasticPads, RelaxingPads
-from .support_properties import LinearSupports, properties_of
+from .support_properties import properties_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from ..scenario import Scenario
     from ..track_section import Track
     from .pad_laws import PadLaw, Relaxation
-    from .support_properties import SupportProperties
+    from .support_properties import LinearSupports, SupportProperties
 
     Array = NDArray[np.float64]
 
@@ -37,6 +38,8 @@ class SmallMotion(NamedTuple):
         Of springs and dampers [N/m], [N s/m].
     branch_stiffness, branch_damping : ndarray, shape (ports,)
         Of branches in parallel to them [N/m], [N s/m]; 0 where there is none.
+    mass : ndarray, shape (ports,)
+        What moves with a component [kg].
     """
 
     force: Array
@@ -44,6 +47,7 @@ class SmallMotion(NamedTuple):
     damping: Array
     branch_stiffness: Array
     branch_damping: Array
+    mass: Array
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -54,6 +58,8 @@ class SupportLaws:
     ----------
     ballast : BallastLaw
         Of the ballast.
+    moving : MovingBallast
+        What of it moves along.
     pads : PadLaw
         Of the pads.
     pads_have_ports : bool
@@ -65,6 +71,7 @@ class SupportLaws:
     """
 
     ballast: BallastLaw
+    moving: MovingBallast
     pads: PadLaw
     pads_have_ports: bool
     base: LinearSupports
@@ -126,12 +133,22 @@ class SupportLaws:
         """Return what is borne at rest beyond the matrices, and by small motions about it."""
         still, count = np.zeros_like(deformation), len(self.supports.gap)
         force, stiffness, damping = self.tangent(deformation, still, self.relaxed(deformation))
-        branch_stiffness, branch_damping = np.zeros_like(force), np.zeros_like(force)
+        branch_stiffness, branch_damping, mass = np.zeros((3, len(force)))
+        mass[:count] = self.supports.own.sleeper_mass + self.moving.at(deformation[:count]).mass
+        mass[:count] -= self.base.mass
         if self.pads_have_ports:
             pads = slice(count, None)
             branch_stiffness[pads], branch_damping[pads] = self.pads.branches(deformation[pads])
         return SmallMotion(
-            force, stiffness - branch_stiffness, damping, branch_stiffness, branch_damping
+            force, stiffness - branch_stiffness, damping, branch_stiffness, branch_damping, mass
+        )
+
+    def with_masses_in_matrices(self) -> SupportLaws:
+        """Return the same where the matrices hold all masses, of ballast that is not pressed."""
+        own = self.supports.own
+        return replace(
+            self,
+            base=replace(self.base, sleeper_mass=own.sleeper_mass, ballast_mass=own.ballast_mass),
         )
 
     def loose(self) -> NDArray[np.bool_]:
@@ -141,7 +158,9 @@ class SupportLaws:
         return np.concatenate(ends)
 
 
-def support_laws(scenario: Scenario, track: Track, *, all_in_matrices: bool) -> SupportLaws:
+def support_laws(
+    scenario: Scenario, track: Track, *, all_in_matrices: bool, first_bay: int = 0
+) -> SupportLaws:
     """Return the laws of a scenario.
 
     Parameters
@@ -151,22 +170,31 @@ def support_laws(scenario: Scenario, track: Track, *, all_in_matrices: bool) -> 
     track : Track
         Its track, or what is held of an endless one.
     all_in_matrices : bool
-        Whether the matrices hold what is linear of every support, whatever it is; or else the
-        nominal springs and dampers.
+        Whether the matrices hold what springs and dampers are linear of every support, whatever
+        they are; or else the nominal ones.
+    first_bay : int
+        Bays between 0 m and the first end of the track.
 
     Raises
     ------
     InputError
-        For a table that cannot be used, or an endless track whose supports differ.
+        For a table that cannot be used, or ballast with a mass that a sleeper can lift off.
     """
-    supports = properties_of(scenario, track)
+    supports = properties_of(scenario, track, first_bay=first_bay)
+    if track.ballast_mass > 0.0 and supports.sleeper_lifts.any():
+        raise InputError(
+            f"track.ballast_mass is {track.ballast_mass:g} kg and a sleeper can lift off its "
+            "ballast, but receptances and the monolithic solution hold masses that are never left "
+            "behind: set track.ballast_mass to 0, or let the ballast pull and close the gaps"
+        )
     pads = _pad_law(track, supports)
     linear = track.pad == "linear"
     loose_pads = supports.rail_lifts if linear else np.ones(len(supports.gap), dtype=np.bool_)
     base = supports.nominal
     if all_in_matrices:
         own = supports.own
-        base = LinearSupports(
+        base = replace(
+            base,
             pad_stiffness=np.where(loose_pads, 0.0, own.pad_stiffness),
             pad_damping=np.where(loose_pads, 0.0, own.pad_damping),
             ballast_stiffness=np.where(supports.sleeper_lifts, 0.0, own.ballast_stiffness),
@@ -175,11 +203,19 @@ def support_laws(scenario: Scenario, track: Track, *, all_in_matrices: bool) -> 
     held = np.array_equal(base.pad_stiffness, supports.own.pad_stiffness) and np.array_equal(
         base.pad_damping, supports.own.pad_damping
     )
+    curve = ballast_curve(track)
     return SupportLaws(
         ballast=BallastLaw(
-            curve=ballast_curve(track),
+            curve=curve,
             tau=track.ballast_damping / track.ballast_stiffness,
             tangent_damping=track.ballast_tangent_damping,
+            supports=supports,
+        ),
+        moving=MovingBallast(
+            curve=curve,
+            stiffness=track.ballast_stiffness,
+            mass=track.ballast_mass,
+            grows=track.ballast_mass_grows,
             supports=supports,
         ),
         pads=pads,

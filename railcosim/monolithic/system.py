@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias
 import numpy as np
 import scipy.sparse as sp
 
+from .bed_inertia import with_inertia
 from .linear_track import Feedthrough, Ports
 from .port_forces import Laws, PortForces, solve_port_forces
 from .vehicle import FREQUENCY
@@ -179,6 +180,10 @@ class CoupledSystem:
         forces = solve_port_forces(
             Laws(self.contact, self.laws, level, state[parts[-1]]), displacement, rate, feedthrough
         )
+        if track.beds is not None and self.laws.moving.varies:
+            forces = with_inertia(
+                forces, self.laws, track.beds, (displacement, rate, track.beds.of_state @ own)
+            )
         at_once = np.zeros_like(displacement)
         if feedthrough is not None:
             at_once = feedthrough.flexibility @ forces.force

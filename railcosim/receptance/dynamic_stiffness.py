@@ -34,18 +34,19 @@ class DynamicStiffness:
 
     def __init__(self, parameters: TrackParameters, tangent: SupportTangent | None = None) -> None:
         self.matrices = assemble(parameters)
-        stiffness, damping = self.matrices.stiffness, self.matrices.damping
+        matrices = self.matrices
+        stiffness, damping, mass = matrices.stiffness, matrices.damping, matrices.mass
         self._branches: SupportTangent | None = None
         if tangent is not None:
             ports, small = tangent.incidence, tangent.small
             stiffness = stiffness + ports @ sp.diags_array(small.stiffness) @ ports.T
             damping = damping + ports @ sp.diags_array(small.damping) @ ports.T
+            mass = mass + ports @ sp.diags_array(small.mass) @ ports.T
             if small.branch_stiffness.any():
                 self._branches = tangent
-        self._width = half_bandwidth(stiffness, damping, self.matrices.mass)
+        self._width = half_bandwidth(stiffness, damping, mass)
         self._stiffness, self._damping, self._mass = (
-            _both_triangles(to_banded(matrix, self._width))
-            for matrix in (stiffness, damping, self.matrices.mass)
+            _both_triangles(to_banded(matrix, self._width)) for matrix in (stiffness, damping, mass)
         )
 
     def load(self, point: TrackPoint) -> FloatArray:

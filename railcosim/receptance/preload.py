@@ -10,6 +10,7 @@ import numpy as np
 from track_fmu.assembly import assemble
 
 from ..errors import InputError
+from ..input_tables import check_laws
 from ..monolithic.full_track import port_incidence
 from ..monolithic.static_start import static_start
 from ..monolithic.support_laws import SmallMotion, support_laws
@@ -41,7 +42,7 @@ class SupportTangent:
     incidence : (N, p) sparse array
         What deforms them.
     small : SmallMotion
-        Their springs, dampers and branches beyond the nominal ones.
+        Their springs, dampers, branches and masses beyond the nominal ones.
     """
 
     ports: IntArray
@@ -57,8 +58,9 @@ class SupportTangent:
         return np.asarray(spring * dashpot / np.where(spring > 0.0, spring + dashpot, 1.0))
 
     def dynamic_stiffness(self, omega: float) -> ComplexArray:
-        """Stiffness of springs, dampers and branches at an angular frequency [rad/s], (p,)."""
+        """Stiffness of all of it at an angular frequency [rad/s], ``k + i w c - w^2 m``, (p,)."""
         linear = self.small.stiffness + 1j * omega * self.small.damping
+        linear = linear - omega**2 * self.small.mass
         return np.asarray(linear + self.branches(omega))
 
 
@@ -84,10 +86,12 @@ def support_tangent(
     Raises
     ------
     InputError
-        For a table that cannot be used, or an unloaded track with things that can lift off.
+        For a table that cannot be used, laws that do not go together, or an unloaded track with
+        things that can lift off.
     RunError
         If there is no equilibrium.
     """
+    check_laws(scenario)
     laws = support_laws(scenario, scenario.track, all_in_matrices=False)
     if force == 0.0:
         _refuse_kinks(laws)
@@ -101,7 +105,10 @@ def support_tangent(
         displacement, _ = static_start(matrices, laws, load=load, load_rate=np.zeros_like(load))
     small = _without_rounding(laws, laws.about_rest(incidence.T @ displacement))
     there = np.flatnonzero(
-        (small.stiffness != 0.0) | (small.damping != 0.0) | (small.branch_stiffness != 0.0)
+        (small.stiffness != 0.0)
+        | (small.damping != 0.0)
+        | (small.branch_stiffness != 0.0)
+        | (small.mass != 0.0)
     )
     if not len(there):
         return None
@@ -125,13 +132,8 @@ def _without_rounding(laws: SupportLaws, small: SmallMotion) -> SmallMotion:
 
 def _refuse_kinks(laws: SupportLaws) -> None:
     """Refuse an unloaded track on which a small motion opens and closes something."""
-    own = laws.supports
-    if (own.sleeper_lifts & (own.gap == 0.0)).any():
-        what = "ballast that does not pull just touches the sleepers: leave track.ballast_pulls out"
-    elif own.rail_lifts.any():
-        what = "a rail that is not fastened just touches its pads: fasten it"
-    else:
-        return
-    raise InputError(
-        f"an unloaded track has no receptance where {what}, or give a preload with --preload"
-    )
+    if laws.supports.rail_lifts.any():
+        raise InputError(
+            "an unloaded track has no receptance where a rail that is not fastened just touches "
+            "its pads: fasten it, or give a preload with --preload"
+        )

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
-from ..variation import Variation
 
 if TYPE_CHECKING:
     from ..scenario import Scenario
@@ -45,7 +44,7 @@ def files_of(scenario: Scenario) -> SurfaceFiles:
             "the tables [[irregularity]] and [[wheel_defect]] are composed for a run and are no "
             "part of a package: write them with railcosim irregularity and name their files"
         )
-    if scenario.track.endless and scenario.variation != Variation():
+    if scenario.track.endless and scenario.variation.is_any:
         raise InputError(
             "[variation] on an endless track is written for a run and is no part of a package: "
             "name a file of supports as track.supports"

@@ -13,7 +13,7 @@ from vehicle_fmu.contact_patch import patch_semi_axis
 from vehicle_fmu.irregularity import RailIrregularity
 
 from ..errors import InputError
-from ..input_tables import read_as
+from ..input_tables import read_rail
 from ..irregularity.contact_filter import filter_along
 from ..irregularity.rail_defects import corrugation, dip
 from ..irregularity.spectra import fra, german, iso3095
@@ -85,7 +85,7 @@ def compose_rail(scenario: Scenario) -> RailIrregularity | None:
     """
     file = scenario.vehicle.rail_irregularity
     if file:
-        return read_as(RailIrregularity, file, ("position", "drop"))
+        return read_rail(file)
     if not scenario.irregularity:
         return None
     parts = [
@@ -172,7 +172,7 @@ def _sine(item: Corrugation) -> Part:
 
 def _measured(item: MeasuredRail) -> Part:
     """Take the curve through a table, at points no further apart than its own: nothing aliases."""
-    table = read_as(RailIrregularity, item.file, ("position", "drop"))
+    table = read_rail(item.file, item.scale)
     curve, scale = table.curve(), item.scale
 
     def drop(x: NDArray[np.float64]) -> NDArray[np.float64]:

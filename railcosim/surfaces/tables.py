@@ -14,7 +14,6 @@ from vehicle_fmu.out_of_roundness import OutOfRoundness
 from ..errors import RunError
 from ..output import replacing
 from ..support_values import support_properties
-from ..variation import Variation
 from .files import SurfaceFiles
 from .rail import compose_rail
 from .wheels import compose_treads
@@ -67,7 +66,8 @@ def written(
         As `compose` returns them for it.
     replay : Path, optional
         Replay file of the run. The folder of the tables is then one beside it of the ending
-        ``.tables``, and stays if the block raises `RunError`: the saved states name its files.
+        ``.tables``, and stays if the block raises `RunError` and has written the replay file, whose
+        saved states name its files.
 
     Raises
     ------
@@ -76,7 +76,7 @@ def written(
     """
     named = scenario.vehicle.rail_irregularity
     rail = None if named else surfaces.rail
-    differing = scenario.track.endless and scenario.variation != Variation()
+    differing = scenario.track.endless and scenario.variation.is_any
     supports = scenario.track.supports if scenario.track.endless else ""
     if rail is None and not surfaces.treads and not differing:
         treads = ("",) * scenario.vehicle.wheels
@@ -139,14 +139,14 @@ def _folder(replay: Path | None) -> Iterator[Path]:
             f"the folder {folder} for the tables of a run cannot be made: "
             f"{error.strerror or error}; make its own folder writable"
         ) from error
-    has_failed = False
+    is_needed = False
     try:
         yield folder
     except RunError:
-        has_failed = True
+        is_needed = replay.is_file()
         raise
     finally:
-        if not has_failed:
+        if not is_needed:
             shutil.rmtree(folder)
 
 

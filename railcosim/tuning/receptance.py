@@ -161,6 +161,8 @@ def require_equal_supports(scenario: Scenario) -> None:
     ]
     if not track.ballast_pulls:
         keys.append("track.ballast_pulls")
+    if track.ballast_mass > 0.0:
+        keys.append("track.ballast_mass")
     own = support_properties(scenario)
     if any((own[name] != (0.0 if name == "gap" else 1.0)).any() for name in own):
         keys.append("track.supports" if track.supports else "[variation]")

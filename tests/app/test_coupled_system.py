@@ -63,7 +63,7 @@ def test_fmus_have_every_parameter_connection_signal_and_indicator(scenario, fmu
 def test_no_parameter_of_an_fmu_is_left_to_its_default(fmus):
     """But for the integration and the input shape, which are not the scenario's business.
 
-    Nor are the parameters of supports that are nominal.
+    Nor are the parameters of supports that are nominal, and the table that they might be in.
     """
     scenario = Scenario()
     law = speed_law(scenario.vehicle)

@@ -1,7 +1,7 @@
 import pytest
 
 from railcosim.errors import InputError
-from railcosim.input_tables import check_profiles
+from railcosim.input_tables import check_profiles, read_rail
 from railcosim.motion import initial_speed, speed_law, travel_time
 from railcosim.scenario import Scenario
 from railcosim.sections import Flat, Run
@@ -109,3 +109,25 @@ def test_a_run_starts_on_the_round_wheel(table):
     profile = table("-0.3,0\n-0.01,1e-3\n0.01,1e-3\n0.05,0\n")
     with pytest.raises(InputError, match=r"begins 0\.3 m before"):
         check_profiles(Scenario(run=Run(approach=0.2), flat=Flat(shape=profile)))
+
+
+@pytest.mark.parametrize("text", ["0;10,5\n1;12\n", "time;speed, m/s\n0,0;10,5\n1,0;12,5\n"])
+def test_decimal_commas_are_refused(table, text):
+    with pytest.raises(
+        InputError, match=r"line \d: has both commas and semicolons; write decimals"
+    ):
+        speed_law(Vehicle(speed_table=table(text)))
+
+
+def test_commas_and_semicolons_may_stand_in_the_names(table):
+    assert initial_speed(speed_law(Vehicle(speed_table=table("t;v, m/s\n0;10\n1;12\n")))) == 10.0
+
+
+def test_a_rail_in_millimetres_is_refused(table):
+    path = table("0,0\n0.25,0.4\n0.5,-0.2\n0.75,0\n")
+    sentence = r"changes by 2\.4 m per metre behind 0\.25 m, but at most 1 can"
+    with pytest.raises(InputError, match=sentence):
+        check_profiles(Scenario(vehicle=Vehicle(rail_irregularity=path)))
+    with pytest.raises(InputError, match=sentence):
+        read_rail(path)
+    assert read_rail(path, 1e-3).drop[1] == 0.4

@@ -55,3 +55,53 @@ def test_keys_without_effect_on_a_track_with_contacts_are_named():
     assert said.startswith("master.tolerance, master.max_step has no effect with contact on the")
     named = read_scenario(None, ("master.tolerance=1e-4", "master.algorithm=newton"))
     assert notes(named, "track") == []
+
+
+@pytest.mark.parametrize(
+    ("overrides", "said"),
+    [
+        (("variation.ballast_stiffness_deviation=0.3",), "take track.supports_per_wheel=10"),
+        (("variation.transition_factor=2", "variation.transition_begin=16"), "by 1 %"),
+        (("track.ballast_mass=30",), "act on more than the 6 nearest supports"),
+        (("track.ballast_mass=30", "track.supports_per_wheel=10"), None),
+        (("variation.hanging_sleepers=25",), None),
+        (("variation.missing_fastenings=25",), None),
+        (("variation.sleeper_mass_deviation=0.3",), None),
+    ],
+)
+def test_increments_in_proportion_to_the_deflection_need_many_supports(overrides, said):
+    found = notes(read_scenario(None, overrides))
+    assert len(found) == (said is not None)
+    assert said is None or said in found[0]
+
+
+def test_a_table_of_supports_is_looked_into_while_it_is_there(tmp_path):
+    table = tmp_path / "supports.csv"
+    case = read_scenario(None, (f"track.supports={table}",))
+    assert notes(case) == []
+    table.write_text("number,gap\n25,1e-3\n", encoding="utf-8")
+    assert notes(case) == []
+    table.write_text("number,ballast_stiffness_factor\n25,2\n", encoding="utf-8")
+    (said,) = notes(case)
+    assert "track.supports_per_wheel=10" in said
+
+
+@pytest.mark.parametrize(
+    ("overrides", "said"),
+    [
+        ((), None),
+        (("track.bays=20",), None),  # 6.1 bays
+        (
+            ("track.bays=15", "flat.position=16.6"),
+            "leaves 4.1 of them between its clamped ends and a wheel",
+        ),
+        (("track.bays=18",), "take track.bays=19"),
+        (("vehicle.preset=manchester_coach", "flat.position=30"), "a window of 50 bays leaves 2.9"),
+        (("vehicle.preset=manchester_coach", "flat.position=30"), "take track.bays=58"),
+        (("vehicle.preset=manchester_coach", "flat.position=30", "track.bays=58"), None),
+    ],
+)
+def test_a_window_must_be_longer_than_the_vehicle_in_it(overrides, said):
+    found = notes(read_scenario(None, ("track.endless=true", *overrides)))
+    assert len(found) == (said is not None)
+    assert said is None or said in found[0]

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import pytest
 
 from railcosim.errors import InputError
@@ -5,6 +7,7 @@ from railcosim.master_section import Master
 from railcosim.scenario import Scenario
 from railcosim.sections import Flat, Run
 from railcosim.track_section import Track
+from railcosim.variation import Variation
 from railcosim.vehicle_section import Vehicle
 
 
@@ -120,3 +123,19 @@ def test_step_limits_must_be_in_order():
     Master(min_step=1e-6, initial_step=1e-6, max_step=1e-6)
     with pytest.raises(InputError, match=r"master\.min_step is 0\.001 s .* 0\.0001 s"):
         Master(min_step=1e-3, max_step=1e-4)
+
+
+def test_positions_on_an_endless_track_keep_their_digits():
+    track = Track(endless=True)
+    far = Scenario(track=track, flat=Flat(position=9.9e8))
+    assert far.supports == 49  # they are all alike, however many there are
+    with pytest.raises(InputError, match=r"would end at 2e\+09 m but .* at most 1e\+09 m: shorten"):
+        Scenario(track=track, flat=Flat(position=2e9))
+
+
+def test_only_so_many_supports_of_an_endless_track_can_vary():
+    track, flat = Track(endless=True), Flat(position=1e8)
+    with pytest.raises(InputError, match=r"153846\d\d\d supports .* at most 2000000 can"):
+        Scenario(track=track, flat=flat, variation=Variation(pad_stiffness_deviation=0.1))
+    repeated = replace(track, supports="supports.csv", supports_repeat=True)
+    assert Scenario(track=repeated, flat=flat).supports == 2_000_000

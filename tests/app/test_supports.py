@@ -76,6 +76,29 @@ def test_wrong_tables_are_refused(tmp_path, text, sentence):
         check_laws(read_scenario(None, [f"track.supports={table}"]))
 
 
+@pytest.mark.parametrize(
+    ("keys", "sentence"),
+    [
+        (
+            ["variation.hanging_sleepers=7", "variation.missing_fastenings=6-8"],
+            "support 7 is held by nothing: there is a gap of 0.001 m under it and the rail is not",
+        ),
+        (
+            ["variation.hanging_sleepers=7-9", "variation.missing_pads=9"],
+            "support 9 is held by nothing: there is a gap of 0.001 m under it and no pad ties it",
+        ),
+    ],
+)
+def test_sleepers_that_nothing_holds_are_refused(keys, sentence):
+    with pytest.raises(InputError, match=sentence):
+        support_properties(read_scenario(None, keys))
+
+
+def test_a_sleeper_without_pad_lies_on_ballast_that_does_not_pull():
+    keys = ["track.ballast_pulls=false", "variation.missing_pads=9"]
+    assert support_properties(read_scenario(None, keys))["pad_stiffness_factor"][8] == 0.0
+
+
 def test_an_endless_track_has_the_supports_that_the_passage_reaches(tmp_path):
     """Those of a list beyond it, however many, are left out; a table may be repeated."""
     table = tmp_path / "supports.csv"

@@ -169,11 +169,22 @@ def test_files_stay_beside_a_replay_file_if_the_run_fails(tmp_path, fails):
         with written(scenario, compose(scenario), replay=replay) as files:
             assert files.rail == str(tmp_path / "run.tables" / "rail.csv")
             if fails:
+                replay.touch()
                 fail()
     except RunError:
         assert (tmp_path / "run.tables" / "rail.csv").is_file()
     else:
         assert list(tmp_path.iterdir()) == []
+
+
+def test_no_files_stay_where_a_run_fails_before_it_has_a_replay_file(tmp_path):
+    scenario = case(Joint(position=16.0))
+    with (
+        pytest.raises(RunError),
+        written(scenario, compose(scenario), replay=tmp_path / "run.replay"),
+    ):
+        fail()
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_rail_that_is_a_file_is_used_as_it_is(table):

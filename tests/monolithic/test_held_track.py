@@ -6,6 +6,7 @@ import pytest
 from railcosim.errors import InputError
 from railcosim.monolithic import solve
 from railcosim.monolithic.held_track import held_track
+from railcosim.monolithic.support_properties import properties_of
 from railcosim.scenario_file import read_scenario
 
 SPACING = 0.65
@@ -38,6 +39,41 @@ def test_a_passage_that_is_too_long_is_refused_with_a_remedy():
         held_track(read_scenario(None, (*long, "run.departure=300")))
     less = float(str(no.value).rpartition("departure ")[2].split(" m")[0])
     held_track(read_scenario(None, (*long, f"run.departure={300 - less}")))
+
+
+def held_supports(*keys):
+    """Supports of what is held, and how many bays there are before their first one."""
+    scenario = read_scenario(None, (*SHORT, "track.endless=true", "track.bays=6", *keys))
+    held = held_track(scenario)
+    return properties_of(scenario, held.keys, first_bay=held.first_bay), held.first_bay
+
+
+def test_supports_of_an_endless_track_have_their_numbers_along_it():
+    own, first = held_supports(
+        "flat.position=103.6",
+        "variation.hanging_sleepers=159",
+        "variation.ballast_stiffness_deviation=0.4",
+    )
+    assert np.flatnonzero(own.gap) == [158 - first]
+    random = ("track.bays=300", "variation.ballast_stiffness_deviation=0.4")
+    long = properties_of(read_scenario(None, random), read_scenario(None, random).track)
+    here = slice(first, first + len(own.gap))
+    assert (own.ballast_stiffness == long.ballast_stiffness[here]).all()
+    assert np.ptp(own.ballast_stiffness) > 0.1
+
+
+def test_a_table_begins_anew_without_end_and_not_before_the_first_support(tmp_path):
+    table = tmp_path / "supports.csv"
+    table.write_text("number,sleeper_mass_factor,gap\n2,1.5,0\n5,1,1e-3\n")
+    again = (f"track.supports={table}", "track.supports_repeat=true")
+    far, first = held_supports("flat.position=103.6", *again)
+    number = first + 1 + np.arange(len(far.gap))
+    assert (far.own.sleeper_mass == np.where(number % 5 == 2, 62.5, 0.0)).all()
+    assert (far.gap == np.where(number % 5 == 0, 1e-3, 0.0)).all()
+    near, first = held_supports("flat.position=3", *again)
+    number = first + 1 + np.arange(len(near.gap))
+    assert number[0] < 0
+    assert (near.gap == np.where((number % 5 == 0) & (number > 0), 1e-3, 0.0)).all()
 
 
 @pytest.mark.parametrize("model", ["modal", "full"])

@@ -27,6 +27,11 @@ TRACKS = {
     "polynomial, tangent damping": ("track.ballast_tangent_damping=true", *DIFFERENT),
     "hyperbolic": ("track.ballast=hyperbolic", *DIFFERENT),
     "hyperbolic, does not pull": ("track.ballast=hyperbolic", "track.ballast_pulls=false"),
+    "masses, does not pull": (
+        "track.ballast_pulls=false",
+        "variation.sleeper_mass_deviation=0.4",
+        *DIFFERENT,
+    ),
     "table": (f"track.ballast={EXAMPLES / 'ballast.csv'}", *DIFFERENT),
     "table of a pad": (f"track.pad={EXAMPLES / 'ballast.csv'}", *DIFFERENT),
 }

@@ -9,7 +9,7 @@ from railcosim.monolithic.course import course_of
 from railcosim.monolithic.held_track import held_track
 from railcosim.monolithic.integrators import Accuracy
 from railcosim.monolithic.jacobian import jacobian
-from railcosim.monolithic.solution import make_system
+from railcosim.monolithic.scenario_system import make_system
 from railcosim.scenario_file import read_scenario
 from railcosim.summary import summarise
 from railcosim.surfaces.tables import compose

@@ -27,7 +27,8 @@ def supports(tmp_path):
     for number in random.permutation(60) + 1:
         if number % 7:
             factors = ",".join(f"{value:.6f}" for value in random.uniform(0.5, 2.0, 4))
-            lines.append(f"{number},{factors},{2e-4 * (number % 5 == 0)},{int(number % 6 > 0)}")
+            hangs = number % 5 == 0
+            lines.append(f"{number},{factors},{2e-4 * hangs},{int(hangs or number % 6 > 0)}")
     table.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return str(table)
 
@@ -153,6 +154,7 @@ def test_sleepers_that_bend_travel_with_the_window(track_pair, short_track):
         ("position;gap\n0.1;0\n", "names support 0 but the track has 11"),
         ("number,gap\n1,0\n1,0\n", "line 3: support 1 has a row already"),
         ("number,gap\n1.5,0\n", "number is 1.5, not a whole number"),
+        ("number,fastened\n3,0.5\n", "line 2: fastened is '0.5', neither 1 nor 0"),
         ("number,gap\n1\n", "line 2: has 1 values, not 2 as the first line"),
         ("number,gap\n1,0,\n", "line 2: has 3 values, not 2 as the first line"),
     ],

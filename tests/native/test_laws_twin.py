@@ -45,6 +45,11 @@ LAWS = {
     "constant mass": {"ballast_mass": 200.0},
     "mass on linear ballast": {"ballast_mass": 80.0, "ballast": "linear"},
     "growing mass": {"ballast_mass": 60.0, "ballast_mass_grows": True},
+    "heavy and light sleepers that lift off": {
+        "ballast_pulls": False,
+        **supports(sleeper_mass_factor_5=3.0, sleeper_mass_factor_7=0.3, gap_6=0.2e-3),
+        **supports(ballast_stiffness_factor_8=5.0, pad_stiffness_factor_9=0.0),
+    },
     "growing mass of a table without pull": {
         "ballast": BALLAST,
         "ballast_pulls": False,
@@ -174,6 +179,14 @@ def test_derivatives_are_those_of_differences(native, name):
         (supports(gap_3=-1e-3), "gap = -0.001 of support 3 must be a finite number"),
         (supports(pad_damping_factor_2=np.nan), "pad_damping_factor = nan of support 2"),
         (supports(sleeper_mass_factor_3=0.05), "0.05 of support 3 must be .* at least 0.1"),
+        (
+            supports(gap_3=1e-3, fastened_3=False),
+            "support 3 is held by nothing: there is a gap of 0.001 m under it and the rail is not",
+        ),
+        (
+            supports(ballast_stiffness_factor_4=0.0, pad_stiffness_factor_4=0.0),
+            "support 4 is held by nothing: there is no ballast under it and no pad ties it",
+        ),
         ({"ballast_mass": -1.0}, "mass = -1 kg must be"),
         ({"ballast_beta": -1e17}, "all loads on ballast and pads rise"),
     ],

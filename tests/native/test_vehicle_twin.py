@@ -168,6 +168,7 @@ def test_texts_that_are_too_long_are_refused(native):
     [
         ("speed_table", "0 1\n1 2 3\n", "line 2"),
         ("speed_table", "0 1\n1 nan\n", "line 2"),
+        ("speed_table", "t; v, m/s\n0;1,5\n1;2,5\n", "line 2: has both commas and semicolons"),
         ("speed_table", "0 1\n1 1e999\n", "line 2"),
         ("speed_table", "0 1\n0 2\n", "increase from point to point"),
         ("speed_table", "0 1\n", "at least 2 are needed"),

@@ -92,9 +92,41 @@ def test_equal_factors_are_another_nominal_track(tmp_path):
     assert found == pytest.approx(nominal.receptance(FREQUENCIES), rel=1e-9)
 
 
+def test_the_mass_of_a_sleeper_and_of_what_moves_along(tmp_path):
+    """``k + i w c - w^2 m``, of half a sleeper 1.6 times as heavy on 40 kg of ballast."""
+    table = tmp_path / "supports.csv"
+    table.write_text("number,sleeper_mass_factor\n5,1.6\n")
+    expected = one_support(80e6 + 15e3j * OMEGA, 30e6 + 31e3j * OMEGA - OMEGA**2 * (75.0 + 40.0))
+    found = study(*SOFT, f"track.supports={table}", "track.ballast_mass=40")
+    assert np.abs(found.receptance(FREQUENCIES) / expected - 1.0).max() < 1e-6
+
+
+def test_ballast_that_grows_heavier_under_a_preload():
+    """With the secant stiffness ``k + s F`` of Eq. (26)."""
+    secant = 30e6 + 2e3 * 20e3
+    bed = secant**2 / 30e6 + 1j * OMEGA * 31e3 / 30e6 * secant - OMEGA**2 * 40.0 * secant / 30e6
+    expected = one_support(80e6 + 15e3j * OMEGA, bed)
+    keys = ("track.ballast_mass=40", "track.ballast_mass_grows=true", "track.ballast=hyperbolic")
+    found = study(*SOFT, *keys, preload=20e3).receptance(FREQUENCIES)
+    assert np.abs(found / expected - 1.0).max() < 1e-6
+
+
+def test_heavier_sleepers_everywhere_are_another_nominal_track(tmp_path):
+    table = tmp_path / "supports.csv"
+    rows = "".join(f"{i},1.6\n" for i in range(1, 10))
+    table.write_text(f"number,sleeper_mass_factor\n{rows}")
+    found = study(f"track.supports={table}").receptance(FREQUENCIES)
+    nominal = study("track.sleeper_mass=200").receptance(FREQUENCIES)
+    assert found == pytest.approx(nominal, rel=1e-9)
+    along = study("track.sleeper_mass=150", "track.ballast_mass=50").receptance(FREQUENCIES)
+    assert along == pytest.approx(nominal, rel=1e-9)
+
+
 @pytest.mark.parametrize("preload", [0.0, 60e3])
-def test_all_modes_are_the_whole_track(preload):
-    keys = (PAD, *DIFFERENT, "variation.hanging_sleepers=4", "track.elements_per_bay=4")
+@pytest.mark.parametrize("special", [("variation.hanging_sleepers=4",), ("track.ballast_mass=40",)])
+def test_all_modes_are_the_whole_track(preload, special):
+    masses = ("variation.sleeper_mass_deviation=0.3", *special)
+    keys = (PAD, *DIFFERENT, *masses, "track.elements_per_bay=4")
     case = study(*keys, "track.mode_pairs=87", preload=preload, load=Place(position=3.0))
     direct, modal = (case.receptance(FREQUENCIES[1:], name) for name in ("direct", "modal"))
     assert np.abs(modal / direct - 1.0).max() < 1e-7
@@ -139,17 +171,30 @@ def test_an_unloaded_nominal_track_has_nothing_beside_its_matrices():
     assert support_tangent(scenario, point=point, force=0.0) is None
 
 
-@pytest.mark.parametrize(
-    ("keys", "sentence"),
-    [
-        ("track.ballast_pulls=false", "ballast that does not pull just touches the sleepers"),
-        ("variation.missing_fastenings=4", "a rail that is not fastened just touches its pads"),
-    ],
-)
-def test_what_opens_has_no_receptance_without_a_preload(keys, sentence):
-    with pytest.raises(InputError, match=f"{sentence}.* or give a preload"):
+@pytest.mark.parametrize("keys", [DIFFERENT, ("variation.hanging_sleepers=4",)])
+def test_an_unloaded_track_does_not_feel_whether_its_ballast_pulls(keys):
+    """Its weight presses it, by more than small motions take off."""
+    held, loose = (study(f"track.ballast_pulls={pulls}", *keys) for pulls in ("true", "false"))
+    assert loose.receptance(FREQUENCIES) == pytest.approx(held.receptance(FREQUENCIES), rel=1e-9)
+
+
+def test_what_just_touches_has_no_receptance_without_a_preload():
+    keys = "variation.missing_fastenings=4"
+    with pytest.raises(InputError, match=r"a rail that is not fastened just .* or give a preload"):
         study(keys).receptance(FREQUENCIES)
     assert np.isfinite(study(keys, preload=50e3).receptance(FREQUENCIES)).all()
+
+
+def test_ballast_with_a_mass_that_a_sleeper_leaves_behind_has_no_receptance():
+    keys = ("track.ballast_mass=40", "variation.hanging_sleepers=4")
+    with pytest.raises(InputError, match=r"40 kg and a sleeper can lift off .* close the gaps"):
+        study(*keys, preload=50e3).receptance(FREQUENCIES)
+
+
+def test_what_the_simulation_refuses_has_no_receptance():
+    keys = ("track.sleeper=beam", "variation.sleeper_mass_deviation=0.2")
+    with pytest.raises(InputError, match="sleepers bend, but their masses differ"):
+        study(*keys).receptance(FREQUENCIES)
 
 
 def test_a_falling_law_has_no_receptance():

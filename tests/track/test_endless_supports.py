@@ -50,6 +50,7 @@ def beds(own, *, pulls):
     return TotalBallast(
         characteristic=PolynomialCharacteristic(alpha=0.37e12, beta=-2.47e15, delta=5.75e18),
         linear_stiffness=STIFFNESS, linear_damping=DAMPING, factors=own, pulls=pulls,
+        sleeper_weight=1226.0, rail_weight=383.0,
     )  # fmt: skip
 
 

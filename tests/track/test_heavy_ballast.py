@@ -24,6 +24,7 @@ from track_fmu.total_ballast import TotalBallast
 from track_fmu.track_model import TrackModel, TrackOptions
 
 M, K, C = 125.0, 30e6, 31e3
+SLEEPER, RAIL = 1226.0, 383.0  # N
 PLACE = np.array([0.65])
 PAPER = PolynomialCharacteristic(alpha=0.37e12, beta=-2.47e15, delta=5.75e18)
 TABLE = np.array([-1e-4, 0.0, 1e-4, 3e-4, 6e-4]), np.array([-2e3, 0.0, 4e3, 2e4, 9e4])
@@ -37,6 +38,7 @@ CHARACTERISTICS = {
 
 def heavy(*, mass=0.0, more=0.0, grows=False, bed=CHARACTERISTICS["linear"], **options):
     own = {"linear_stiffness": K, "linear_damping": C, "gap": np.zeros(1), **options}
+    own |= {"sleeper_weight": SLEEPER, "rail_weight": RAIL}
     nominal = 1e4 * M  # much more than the one mass that the law is tried on, so that it may lose
     factors = replace(
         SupportFactors.nominal(1), gap=own.pop("gap"), sleeper_mass=np.array([1.0 + more / nominal])
@@ -183,7 +185,7 @@ def test_tangents_are_the_derivatives_of_the_force(kind, grows, pulls, gap):
     random = np.random.default_rng(3)
     count = 400
     motion = [
-        random.uniform(1e-6, 7e-4, count),
+        random.uniform(-1e-4, 7e-4, count),
         random.uniform(-0.1, 0.1, count),
         random.uniform(-50.0, 50.0, count),
     ]
@@ -202,7 +204,7 @@ def test_tangents_are_the_derivatives_of_the_force(kind, grows, pulls, gap):
 
 
 def test_ballast_that_does_not_pull_is_not_dragged_along():
-    law = heavy(mass=100.0, pulls=False)
+    law, weight = heavy(mass=100.0, pulls=False), SLEEPER + RAIL
     x, still, support = np.array([1e-4]), np.zeros(1), np.zeros(1, dtype=np.intp)
 
     def whole(acceleration):
@@ -211,9 +213,10 @@ def test_ballast_that_does_not_pull_is_not_dragged_along():
 
     assert whole(10.0) == pytest.approx(K * x[0] + 1e3)
     assert whole(-29.0) == pytest.approx(K * x[0] - 2.9e3)
-    assert whole(-31.0) == 0.0
-    lifted = law.moving_force(-x, still, np.array([-31.0]), support)
-    assert lifted == pytest.approx(K * x)
+    assert whole(-46.0) == pytest.approx(K * x[0] - 4.6e3)
+    assert whole(-47.0) == pytest.approx(-weight)
+    lifted = law.moving_force(-x, still, np.array([47.0]), support)
+    assert lifted == pytest.approx(K * x - weight)
 
 
 def test_a_truncated_set_has_the_sleepers_inertia():

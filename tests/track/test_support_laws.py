@@ -20,6 +20,8 @@ from track_fmu.total_ballast import TotalBallast
 from track_fmu.viscoelastic_pads import ViscoelasticPads
 
 K, C = 30e6, 31e3
+SLEEPER, RAIL = 1226.0, 383.0  # N
+WEIGHT = SLEEPER + RAIL
 ONE = np.zeros(1, dtype=np.intp)
 PAPER = {"alpha": 0.37e12, "beta": -2.47e15, "delta": 5.75e18}
 TABLE = np.array([-1e-4, 0.0, 1e-4, 3e-4, 6e-4]), np.array([-2e3, 0.0, 4e3, 2e4, 9e4])
@@ -40,6 +42,8 @@ def ballast(characteristic, *, supports=1, own=(), **options):
         linear_stiffness=K,
         linear_damping=C,
         factors=factors,
+        sleeper_weight=SLEEPER,
+        rail_weight=RAIL,
         **options,
     )
 
@@ -100,18 +104,44 @@ def test_a_table_goes_through_its_points_and_rises_between_them():
 
 
 @pytest.mark.parametrize("kind", CHARACTERISTICS)
-def test_ballast_that_does_not_pull_never_does(kind):
-    law = ballast(CHARACTERISTICS[kind], pulls=False)
-    x, v = np.meshgrid(np.linspace(-3e-4, 6e-4, 61), np.linspace(-2.0, 0.5, 41))
-    total = whole(law, x.ravel(), v.ravel())
-    assert total.min() >= -1e-6
-    assert total[x.ravel() <= 0.0] == pytest.approx(0.0, abs=1e-6)
+def test_ballast_that_does_not_pull_loses_the_dead_weight_on_it_and_no_more(kind):
+    held, law = ballast(CHARACTERISTICS[kind]), ballast(CHARACTERISTICS[kind], pulls=False)
+    x, v = (grid.ravel() for grid in np.meshgrid(np.linspace(-3e-4, 6e-4, 61), (-2.0, 0.0, 0.5)))
+    still = whole(held, x, 0.0)
+    assert whole(law, x, 0.0) == pytest.approx(np.maximum(still, -WEIGHT), abs=1e-6)
+    total = whole(law, x, v)
+    assert total.min() >= -WEIGHT - 1e-6
+    assert total[still <= -WEIGHT] == pytest.approx(-WEIGHT, abs=1e-6)
+    # from 20 um above lifting off on it is the other ballast, as long as it presses
+    pressed = (still > -WEIGHT + 2.0 * 20e-6 * K) & (total > -WEIGHT + 1e-6)
+    assert total[pressed] == pytest.approx(whole(held, x, v)[pressed], abs=1e-6)
+
+
+@pytest.mark.parametrize("stiffness", [0.1, 1.0, 10.0])
+@pytest.mark.parametrize("kind", CHARACTERISTICS)
+def test_about_rest_ballast_that_does_not_pull_is_the_ballast_that_does(kind, stiffness):
+    """Also where the weight presses it by less than the damping takes to set in, 20 um."""
+    own = {"ballast_stiffness": np.array([stiffness])}
+    laws = [ballast(CHARACTERISTICS[kind], own=own, pulls=pulls) for pulls in (True, False)]
+    rest = np.zeros(1)
+    for ask in ("force", "stiffness", "damping"):
+        held, loose = (getattr(law, ask)(rest, rest, ONE) for law in laws)
+        assert loose == pytest.approx(held, abs=1e-6)
+
+
+def test_heavy_sleepers_lift_off_later():
+    own = {"sleeper_mass": np.array([0.5, 2.0])}
+    law = ballast(LinearCharacteristic(), supports=2, own=own, pulls=False)
+    x = np.full(2, -1e-3)
+    lifted = law.force(x, np.zeros(2), np.array([0, 1])) + K * x
+    assert lifted == pytest.approx([-0.5 * SLEEPER - RAIL, -2.0 * SLEEPER - RAIL])
 
 
 def test_a_hanging_sleeper_meets_its_ballast_at_the_gap():
-    law = ballast(CHARACTERISTICS["polynomial"], own={"gap": np.array([0.3e-3])})
+    """Its weight hangs from the rail at rest: there is none that the ballast could lose."""
+    law = ballast(CHARACTERISTICS["polynomial"], own={"gap": np.array([0.3e-3])}, pulls=False)
     touching = ballast(CHARACTERISTICS["polynomial"])
-    x = np.array([0.1e-3, 0.3e-3, 0.4e-3, 0.7e-3])
+    x = np.array([-1e-3, 0.1e-3, 0.3e-3, 0.4e-3, 0.7e-3])
     expected = np.where(x > 0.3e-3, whole(touching, x - 0.3e-3, 0.0), 0.0)
     assert whole(law, x, 0.0) == pytest.approx(expected, abs=1e-6)
 

@@ -168,6 +168,7 @@ def test_a_start_of_zero_is_refused():
     ("override", "key"),
     [
         ("track.ballast_pulls=false", "track.ballast_pulls"),
+        ("track.ballast_mass=30", "track.ballast_mass"),
         ("track.pad=pad.csv", "track.pad"),
         ("variation.missing_pads=3", r"\[variation\]"),
     ],

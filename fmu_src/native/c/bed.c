@@ -4,21 +4,23 @@
 
 #include "laws.h"
 
-#define ONSET 20e-6 /* m; in which damping and mass set in where a sleeper can lift off */
+#define ONSET 20e-6 /* m; in whose load damping and mass set in where a sleeper can lift off */
 #define TINY 1e-12  /* m; below it a secant is a tangent */
 
-/* A whole force before it is found to be a pull that ballast cannot bear. */
+/* A force beyond that at rest, before it is found to be less than ballast can bear. */
 typedef struct {
     rc_response whole;
     rc_jet rest; /* the characteristic at x, the closure of the gap */
     double x;
     int loose, gone;
+    double least;              /* of the force, if loose: minus the dead weight on the ballast */
+    double share, slope, bend; /* how much of damping and mass has set in, and its derivatives */
 } pressed_bed;
 
 static rc_response let_go(const pressed_bed *bed)
 {
-    return bed->gone || (bed->loose && bed->whole.total < 0.0)
-               ? (rc_response){0.0, 0.0, 0.0, 0.0}
+    return bed->gone || (bed->loose && bed->whole.total < bed->least)
+               ? (rc_response){bed->least, 0.0, 0.0, 0.0}
                : bed->whole;
 }
 
@@ -30,31 +32,52 @@ static void cut(const rc_jet *rest, double x, double *stiffness, double *slope)
     *slope = small ? 0.5 * rest->curvature : (rest->tangent - *stiffness) / x;
 }
 
+/* Where a sleeper is on a bed with such a load beyond that at rest. */
+static void touch(const rc_laws *laws, const rc_support *own, const rc_jet *load, pressed_bed *bed)
+{
+    const double spring = own->of[RC_BALLAST_STIFFNESS_FACTOR];
+    const int rests = own->of[RC_GAP] == 0.0 && spring > 0.0;
+    const double weight = rests ? laws->sleeper_weight * own->of[RC_SLEEPER_MASS_FACTOR] +
+                                      laws->rail_weight
+                                : 0.0;
+    const double pressed = load->load + weight;
+    double whole = ONSET * laws->ballast_stiffness * spring;
+    if (rests && weight < whole)
+        whole = weight;
+    bed->least = -weight;
+    bed->gone = !(pressed > 0.0);
+    if (bed->gone || !(pressed < whole))
+        return;
+    bed->share = pressed / whole;
+    bed->slope = load->tangent / whole;
+    bed->bend = load->curvature / whole;
+}
+
 static pressed_bed press(const rc_laws *laws, const rc_support *own, double deformation,
                          double rate)
 {
     const double k = laws->ballast_stiffness, c = laws->ballast_damping, tau = c / k;
     const double gap = own->of[RC_GAP], x = deformation - gap;
-    pressed_bed bed = {.x = x, .loose = gap > 0.0 || !laws->pulls};
-    bed.gone = bed.loose && !(x > 0.0);
+    pressed_bed bed = {.x = x, .loose = gap > 0.0 || !laws->pulls, .share = 1.0};
+    bed.rest = rc_characteristic_at(&laws->bed, x);
+    const double spring = own->of[RC_BALLAST_STIFFNESS_FACTOR];
+    const rc_jet load = {.load = spring * (k * x + bed.rest.load),
+                         .tangent = spring * (k + bed.rest.tangent),
+                         .curvature = spring * bed.rest.curvature};
+    if (bed.loose)
+        touch(laws, own, &load, &bed);
     if (bed.gone)
         return bed;
-    bed.rest = rc_characteristic_at(&laws->bed, x);
     double excess = bed.rest.tangent, slope = bed.rest.curvature;
     if (!laws->tangent_damping)
         cut(&bed.rest, x, &excess, &slope);
-    double damping = c + tau * excess, damping_slope = tau * slope;
-    if (bed.loose && x < ONSET) {
-        const double share = x / ONSET;
-        damping_slope = share * damping_slope + damping / ONSET;
-        damping = share * damping;
-    }
-    const double spring = own->of[RC_BALLAST_STIFFNESS_FACTOR];
+    const double damping = c + tau * excess, damping_slope = tau * slope;
     const double damper = own->of[RC_BALLAST_DAMPING_FACTOR];
-    bed.whole = (rc_response){
-        .total = spring * (k * x + bed.rest.load) + damper * damping * rate,
-        .by_deformation = spring * (k + bed.rest.tangent) + damper * damping_slope * rate,
-        .by_rate = damper * damping};
+    const double by_rate = damper * (bed.share * damping);
+    const double by_rate_slope = damper * (bed.share * damping_slope + bed.slope * damping);
+    bed.whole = (rc_response){.total = load.load + by_rate * rate,
+                              .by_deformation = load.tangent + by_rate_slope * rate,
+                              .by_rate = by_rate};
     return bed;
 }
 
@@ -83,12 +106,9 @@ rc_response rc_press_heavy_ballast(const rc_laws *laws, const rc_support *own, d
                    : 0.0;
         slope = there ? scale * slope : 0.0;
     }
-    if (bed.loose && bed.x < ONSET) {
-        const double share = bed.x / ONSET, share_slope = 1.0 / ONSET;
-        bend = share * bend + 2.0 * share_slope * slope;
-        slope = share * slope + share_slope * mass;
-        mass = share * mass;
-    }
+    bend = bed.share * bend + 2.0 * bed.slope * slope + bed.bend * mass;
+    slope = bed.share * slope + bed.slope * mass;
+    mass = bed.share * mass;
     bed.whole.total += mass * acceleration + 0.5 * slope * rate * rate;
     bed.whole.by_deformation += slope * acceleration + 0.5 * bend * rate * rate;
     bed.whole.by_rate += slope * rate;

@@ -8,6 +8,7 @@
 #include "dense.h"
 
 #define TOLERANCE 1e-12 /* of the static load of a wheel */
+#define ROUNDING 1e-15  /* of the displacements; stiff treads feel it */
 #define MAX_SWEEPS 100
 #define OVERSHOOT 0.1      /* slope of the energy behind a change over the fall before it */
 #define SMALLEST_SHARE 1e-3 /* of a change */
@@ -173,6 +174,8 @@ int rc_settle(const rc_settling *of, double *q)
             return 1;
         if (!isfinite(largest) || !find_change(of, q, miss, change))
             return 0;
+        if (rc_largest(change, count) <= ROUNDING * rc_largest(q, count))
+            return 1;
         const double fall = dot(change, miss, count);
         for (double share = 1.0;; share *= 0.5) {
             for (size_t c = 0; c < count; ++c)

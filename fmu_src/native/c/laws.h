@@ -25,6 +25,7 @@ typedef struct {
     rc_support_line line;
     int inertial, mass_grows; /* whether forces depend on accelerations */
     double ballast_mass, sleeper_mass; /* kg, nominal */
+    double sleeper_weight, rail_weight; /* N, nominal, under one rail seat */
 } rc_laws;
 
 /* What viscoelastic pads remember, (supports) each, and the step that begins with it. */

@@ -1,9 +1,12 @@
 /* The laws of ballast and pads from the parameters of a track. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "table_file.h"
 #include "track_setup.h"
+
+#define GRAVITY 9.81 /* m/s2 */
 
 static int is_csv(const char *text)
 {
@@ -53,6 +56,23 @@ static rc_status take_supports(rc_model *model, const rc_basis *basis, rc_suppor
     return RC_OK;
 }
 
+/* Refuses a sleeper that would have fallen down before the track is at rest. */
+static rc_status check_hold(rc_model *model, const rc_support *own, size_t number)
+{
+    const double gap = own->of[RC_GAP];
+    const int padless = own->of[RC_PAD_STIFFNESS_FACTOR] == 0.0;
+    char below[48] = "no ballast";
+    if ((gap == 0.0 && own->of[RC_BALLAST_STIFFNESS_FACTOR] > 0.0) ||
+        (!padless && own->of[RC_FASTENED] != 0.0))
+        return RC_OK;
+    if (gap > 0.0)
+        snprintf(below, sizeof below, "a gap of %g m", gap);
+    return rc_fail(model, RC_ERROR, "track: the sleeper of support %zu is held by nothing: there "
+                                    "is %s under it and %s; let it rest on its ballast or hang "
+                                    "from the rail", number, below,
+                   padless ? "no pad ties it to the rail" : "the rail is not fastened");
+}
+
 /* Refuses what no support has. */
 static rc_status check_supports(rc_model *model, const rc_support_line *line)
 {
@@ -64,6 +84,9 @@ static rc_status check_supports(rc_model *model, const rc_support_line *line)
                                                 "number, at least %g",
                                RC_PROPERTIES[p].name, value, s + 1, least);
         }
+    for (size_t s = 0; s < line->count; ++s)
+        if (check_hold(model, &line->known[s], s + 1) != RC_OK)
+            return RC_ERROR;
     return RC_OK;
 }
 
@@ -198,7 +221,10 @@ rc_status rc_read_laws(rc_model *model, rc_track *track)
                       .ballast_damping = basis->ballast_damping,
                       .pad_stiffness = basis->pad_stiffness,
                       .pad_damping = basis->pad_damping,
-                      .sleeper_mass = basis->sleeper_mass[0]};
+                      .sleeper_mass = basis->sleeper_mass[0],
+                      .sleeper_weight = GRAVITY * basis->sleeper_mass[0],
+                      .rail_weight = GRAVITY * *rc_values(model, MASS_PER_LENGTH) *
+                                     basis->spacing};
     if (read_supports(model, basis, &laws->line) != RC_OK || read_ballast(model, laws) != RC_OK ||
         read_pads(model, laws) != RC_OK) {
         rc_free_laws(laws);

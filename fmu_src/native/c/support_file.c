@@ -143,6 +143,9 @@ static int take_row(table *of, const char *line, const char *end, size_t number)
                           : kind == POSITION ? "position"
                                              : RC_PROPERTIES[kind].name,
                           (int)(last - from), from);
+        if (kind == RC_FASTENED && value != 0.0 && value != 1.0)
+            return REFUSE(of, "table %s, line %zu: fastened is '%.*s', neither 1 nor 0", of->path,
+                          number, (int)(last - from), from);
         if (kind >= NUMBER && !take_place(of, to, kind, value))
             return 0;
         if (kind < NUMBER)

@@ -118,6 +118,13 @@ size_t rc_count_lines(const char *text)
     return lines;
 }
 
+/* Whether the decimals of a line have commas, which then cannot separate its values. */
+static int has_decimal_commas(const char *from, const char *to)
+{
+    const size_t length = (size_t)(to - from);
+    return memchr(from, ',', length) != NULL && memchr(from, ';', length) != NULL;
+}
+
 static int is_good(const row *found, size_t columns)
 {
     for (size_t c = 0; c < columns; ++c)
@@ -141,6 +148,11 @@ static int take_rows(rc_table *table, const char *text, const char *path,
             header_allowed = 0;
             if (!header && table->rows == 0 && kind->most == COLUMNS && found.cells == COLUMNS)
                 table->columns = COLUMNS; /* the first row says how many there are */
+            if (!header && has_decimal_commas(first, end)) {
+                snprintf(message, room, "table %s, line %zu: has both commas and semicolons; write "
+                                        "decimals with a point", path, number);
+                return 0;
+            }
             if (!header && !is_good(&found, table->columns)) {
                 if (kind->most == COLUMNS)
                     snprintf(message, room, "table %s, line %zu: must be %zu finite numbers", path,
