@@ -97,7 +97,7 @@ ENDLESS = {"endless": True, "initial_speed": SPEED}
 RICH = {
     "pad": PAD,
     "ballast_pulls": False,
-    "ballast_mass": 120.0,
+    "ballast_mass": 60.0,
     "ballast_mass_grows": True,
     "support[6].gap": 5e-4,
     "support[7].sleeper_mass_factor": 0.5,
