@@ -33,14 +33,19 @@ def surface_rate(
     return rate
 
 
-def check_start(loads: FloatArray, velocities: FloatArray) -> None:
-    """Raise ValueError unless every wheel presses on the rail [N] and all values are numbers."""
-    for number, (load, velocity) in enumerate(zip(loads, velocities, strict=True), start=1):
-        if not (math.isfinite(load) and math.isfinite(velocity)):
+def check_start_inputs(load_changes: FloatArray, velocities: FloatArray) -> None:
+    """Raise ValueError unless what the vehicle tells of its start [N, m/s] are numbers."""
+    for number, (change, velocity) in enumerate(zip(load_changes, velocities, strict=True), 1):
+        if not (math.isfinite(change) and math.isfinite(velocity)):
             raise ValueError(
-                f"track: load {float(load):g} N and velocity {float(velocity):g} m/s of wheel "
-                f"{number} must be finite numbers; look for the cause in the vehicle"
+                f"track: load change {float(change):g} N and velocity {float(velocity):g} m/s of "
+                f"wheel {number} must be finite numbers; look for the cause in the vehicle"
             )
+
+
+def check_loads(loads: FloatArray) -> None:
+    """Raise ValueError unless every wheel presses on the rail [N]."""
+    for number, load in enumerate(loads, start=1):
         if load < 0.0:
             raise ValueError(
                 f"track: wheel {number} starts with a load of {float(load):g} N, which must be at "

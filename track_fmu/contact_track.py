@@ -13,7 +13,8 @@ from .contact_start import (
     INSTANT,
     SWAY,
     check_displacements,
-    check_start,
+    check_loads,
+    check_start_inputs,
     first_step_doubts,
     surface_rate,
 )
@@ -149,9 +150,13 @@ class ContactTrack:
             If the equilibrium is not found.
         """
         check_displacements(displacements)
-        own, loads = self._own, np.full(len(positions), self._static_load) + load_change
-        velocities = np.zeros_like(positions) + velocity
-        check_start(loads, velocities)
+        changes, velocities = (
+            np.zeros_like(positions) + load_change,
+            np.zeros_like(positions) + velocity,
+        )
+        check_start_inputs(changes, velocities)
+        own, loads = self._own, self._static_load + changes
+        check_loads(loads)
         self._track.start(positions, loads)
         own.compression[:] = self._law.compression(loads)
         own.origin[:] = self._track.rail_displacement + self._surface.drops(positions)

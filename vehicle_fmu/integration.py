@@ -7,6 +7,18 @@ from .contact import hertz_force
 _ROUNDING = 1e-9
 """A step of exactly n longest substeps takes n of them, whatever the rounding of the quotient."""
 
+MOST_SUBSTEPS = 1e5
+"""Of a step: 2 s with the usual substep, the way of a whole passage."""
+
+
+def require_substeps(step_size: float, longest: float) -> None:
+    """Raise ValueError if a step [s] takes more than `MOST_SUBSTEPS` of the longest length [s]."""
+    if step_size / longest > MOST_SUBSTEPS:
+        raise ValueError(
+            f"a step of {step_size:g} s is more than {MOST_SUBSTEPS:g} substeps of "
+            f"{longest:g} s; use a shorter step"
+        )
+
 
 def substeps_of(duration: float, longest: float) -> int:
     """Return the number of equal substeps of a duration [s], none above the longest [s]."""

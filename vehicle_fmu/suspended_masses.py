@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from .equilibrium import TOLERANCE, follow, settle
-from .integration import substeps_of
+from .integration import require_substeps, substeps_of
 from .masses import Masses, MassesParameters, check_forces
 from .speed import SpeedLaw
 from .standing import Standing
@@ -71,6 +71,7 @@ class SuspendedMasses(Masses):
         """Move on by one step; see `Masses.step`."""
         require_step(time, step_size, reached=float(self._state[1]), what="masses are")
         check_forces(forces)
+        require_substeps(step_size, self._substep)
         before, passed = self.state, float(self._state[2])
         with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused below
             if linear and passed > 0.0:  # where nobody tells what the forces have become

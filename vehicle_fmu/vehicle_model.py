@@ -7,7 +7,7 @@ import numpy as np
 
 from .contact import hertz_compression
 from .excitation import Excitation
-from .integration import integrate_wheel
+from .integration import integrate_wheel, require_substeps
 from .irregularity import RailIrregularity
 from .out_of_roundness import OutOfRoundness
 from .parameters import FlatParameters, VehicleParameters
@@ -18,7 +18,6 @@ from .surfaces import check_out_of_roundness
 from .validation import FloatArray, require_position, require_step
 from .wheel_profile import WheelProfileTable, check_flat
 
-MOST_SUBSTEPS = 1e5  # of a step; 2 s with the usual substep, the way of a whole passage
 INSTANT = 1e-6  # s, over which the rate of a surface is taken at the start
 
 
@@ -138,7 +137,8 @@ class VehicleModel(RollingWheels):
         ValueError
             If a displacement is not finite or drives a wheel out of the range of numbers, their
             number is not that of wheels, `time` is not where the model is, or `step_size` is not
-            finite and above zero, too small to move the time on, or more than `MOST_SUBSTEPS`.
+            finite and above zero, too small to move the time on, or more than
+            `integration.MOST_SUBSTEPS`.
         """
         self._check_step(time, step_size)
         rail = checked_rail_displacement(rail_displacement, self.parameters.wheels)
@@ -220,12 +220,7 @@ class VehicleModel(RollingWheels):
         """Refuse a step that does not join the last one or has no proper length."""
         self._require_started()
         require_step(time, step_size, reached=self._time, what="vehicle is")
-        substep = self.parameters.substep
-        if step_size / substep > MOST_SUBSTEPS:
-            raise ValueError(
-                f"a step of {step_size:g} s is more than {MOST_SUBSTEPS:g} substeps of "
-                f"{substep:g} s; use a shorter step"
-            )
+        require_substeps(step_size, self.parameters.substep)
         end = time + step_size
         require_position(self._excitation.positions(self._start, end)[0], end)
 

@@ -46,12 +46,7 @@ class MassesSlave(ModelSlave):
 
     def start_model(self, model: Masses, time: float, inputs: Mapping[str, FloatArray]) -> None:
         """Static equilibrium on wheels that stand where the track says."""
-        standing = Standing(
-            displacement=inputs["static_displacement"],
-            velocity=inputs["static_velocity"],
-            mean_velocity=inputs["mean_velocity"],
-        )
-        model.initialise(time, inputs["contact_force"], standing)
+        model.initialise(time, inputs["contact_force"], _standing(inputs))
 
     def step_model(
         self,
@@ -62,7 +57,8 @@ class MassesSlave(ModelSlave):
         *,
         linear: bool,
     ) -> None:
-        """One step."""
+        """One step; what matters at the start only must be numbers later on as well."""
+        _standing(inputs)
         model.step(time, step_size, inputs["contact_force"], linear=linear)
 
     def read_model(self, model: Masses, group: str) -> Sequence[float]:
@@ -72,3 +68,11 @@ class MassesSlave(ModelSlave):
             return read_bodies(suspended, group, wheels=self.wheels, bogies=self.bogies)
         values: list[float] = getattr(model, group).tolist()
         return values
+
+
+def _standing(inputs: Mapping[str, FloatArray]) -> Standing:
+    return Standing(
+        displacement=inputs["static_displacement"],
+        velocity=inputs["static_velocity"],
+        mean_velocity=inputs["mean_velocity"],
+    )

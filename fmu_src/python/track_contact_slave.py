@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pythonfmu.enums import Fmi2Status
 
+from track_fmu.contact_start import check_start_inputs
 from track_fmu.contact_track import ContactTrack
 from track_fmu.parameters import TrackParameters
 from vehicle_fmu.hertz_contact import HertzContact
@@ -91,8 +92,12 @@ class TrackContactSlave(ModelSlave):
         *,
         linear: bool,
     ) -> None:
-        """One step; the track does not depend on time itself."""
+        """One step; the track does not depend on time itself.
+
+        What matters at the start only must be numbers later on as well.
+        """
         del time
+        check_start_inputs(inputs["load_change"], inputs["velocity"])
         positions = inputs["position"]
         if not linear:
             for doubt in model.doubts(step_size, positions):

@@ -43,12 +43,18 @@ def position_inputs(structure: TrackParameters, wheels: int) -> list[Variable]:
             index=i,
             unit="m",
             nominal=1.0,
-            minimum=0.0,
-            start=max(middle_of(structure) - APPROACH - i * AXLE_BASE, 0.0),
+            start=position,
             description=f"Track position of wheel {i + 1}, from the clamped end of the rail",
         )
-        for i in range(wheels)
+        for i, position in enumerate(_start_positions(structure, wheels))
     ]
+
+
+def _start_positions(structure: TrackParameters, wheels: int) -> list[float]:
+    """Start positions of wheels [m], all on the track if it has room for them."""
+    middle = middle_of(structure)
+    approach = min(APPROACH, 0.5 * (middle - (wheels - 1) * AXLE_BASE))
+    return [max(middle - approach - i * AXLE_BASE, 0.0) for i in range(wheels)]
 
 
 def _force_inputs(wheels: int) -> list[Variable]:

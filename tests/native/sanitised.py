@@ -11,6 +11,12 @@ from fmu_src.native.compiler import ARITHMETIC, HEADERS, LANGUAGE, SOURCES
 from fmu_src.native.model_sources import MODELS
 
 FUZZER = Path(__file__).with_name("fuzz")
+READERS_FUZZER = (
+    *(FUZZER / name for name in ("draw.c", "tables.c")),
+    FUZZER.parent / "fuzz_tables/main.c",
+)
+READERS = ("support_file.c", "support_line.c", "table_file.c")
+"""Sources of the fuzzer of CSV files, and of the models' readers of them."""
 CHECKS = {
     "gcc": "-fsanitize=address,undefined,float-cast-overflow",
     "zig": "-fsanitize=undefined,float-cast-overflow",  # ziglang brings no run time for the other
@@ -62,6 +68,14 @@ def build(folder, models, chosen):
         chosen_objects += [objects[path.name] for path in FUZZER.glob("*.c")]
         run([*command(chosen), *chosen_objects, "-lm", "-o", programs[model]])
     return programs
+
+
+def build_readers(folder, chosen):
+    """Path of the fuzzer of CSV files."""
+    sources = [*READERS_FUZZER, *(SOURCES / name for name in READERS)]
+    program, include = folder / "fuzz-tables", [f"-I{SOURCES}", f"-I{FUZZER}"]
+    run([*command(chosen), *include, *sources, "-lm", "-o", program])
+    return program
 
 
 def run(arguments):

@@ -7,7 +7,7 @@ from fmu_src.native.model_sources import MODELS
 from track_fmu.contact_track import LONGEST_PART
 from track_fmu.step_parts import MOST_PARTS, count_parts
 from track_fmu.track_model import LONGEST_STEP
-from vehicle_fmu.vehicle_model import MOST_SUBSTEPS
+from vehicle_fmu.integration import MOST_SUBSTEPS
 
 from .library import DiscardedError
 
@@ -44,6 +44,19 @@ def test_vehicles_refuse_too_many_substeps_in_the_same_words(vehicle_pair, step,
         "native": lambda: pair.native.step(0.0, step),
     }
     one, other = refuse(lambda model: takes[model](), pair.numpy, pair.native)
+    assert one == other == f"a step of {step:g} s is more than {parts}; use a shorter step"
+
+
+@pytest.mark.parametrize("step", [1.000001 * MOST_SUBSTEPS * SUBSTEP, 1e300])
+def test_suspended_masses_refuse_too_many_substeps_in_the_same_words(masses_pair, step):
+    pair = masses_pair(values={"model": "suspended"})
+    pair.start(0.0, LOAD)
+    takes = {
+        "numpy": lambda: pair.numpy.step(0.0, step, LOAD, linear=True),
+        "native": lambda: pair.native.step(0.0, step),
+    }
+    one, other = refuse(lambda model: takes[model](), pair.numpy, pair.native)
+    parts = "100000 substeps of 2e-05 s"
     assert one == other == f"a step of {step:g} s is more than {parts}; use a shorter step"
 
 

@@ -5,9 +5,11 @@ FUZZ_CALLS and FUZZ_SEEDS say how many and from where. A failure names the seed 
 
 import logging
 import os
+from dataclasses import replace
 
 import pytest
 
+from fmu_src.native.model_resources import track_resource
 from fmu_src.native.model_sources import MODELS
 
 from . import sanitised
@@ -36,10 +38,10 @@ def put(folder, data, token=TOKEN):
 
 @pytest.fixture
 def folders(tmp_path, resources):
-    """Return a function that makes the resources of a model, and every wrong kind of them."""
+    """Return a function that makes the resources of a model or of given bytes, and wrong ones."""
 
     def make(model):
-        data = resources[model]
+        data = model if isinstance(model, bytes) else resources[model]
         damaged = bytearray(data)
         damaged[len(data) // 2] ^= 1
         put(tmp_path / "good", data)
@@ -52,6 +54,13 @@ def folders(tmp_path, resources):
         return tmp_path / "good", TOKEN, tmp_path / "wrong"
 
     return make
+
+
+@pytest.fixture(scope="module")
+def bent(short_track):
+    """Resource of a track on sleepers that bend."""
+    parameters = replace(short_track, sleeper="beam", sleeper_elements=3)
+    return track_resource(parameters, wheels=2, gauges=2, mode_pairs=40, contact=True)
 
 
 def check(program, kind, places):
@@ -68,6 +77,22 @@ def check(program, kind, places):
 @pytest.mark.parametrize("model", MODELS)
 def test_under_the_best_sanitizers(programs, folders, model, kind):
     check(programs[model], kind, folders(model))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_sleepers_that_bend(programs, folders, bent, kind):
+    check(programs["track_contact"], kind, folders(bent))
+
+
+def test_damaged_tables(tmp_path):
+    """Supports, rail pads and curves, read from thousands of files by the readers of them all."""
+    program = sanitised.build_readers(tmp_path, sanitised.compiler())
+    for seed in SEEDS:
+        counted = sanitised.fuzz(
+            program, seed, CALLS // 4, tmp_path / "one.csv", timeout=TIME_LIMIT
+        )
+        LOG.info("tables, seed %d: %s", seed, counted)
+        assert all(int(word) > CALLS // 40 for word in counted.split() if word.isdigit())
 
 
 @pytest.mark.slow

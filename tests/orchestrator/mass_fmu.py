@@ -54,6 +54,9 @@ class {name}(Fmi2Slave):
         if self.trouble == 1 and step > 0.015:
             self.log(f"a step of {{step:.3f}} s is too long", Fmi2Status.warning)
             return False
+        if self.trouble == 11 and not 4.9 < self.force < 5.1:
+            self.log(f"a force of {{self.force}} N is far from 5 N", Fmi2Status.warning)
+            return False
         if self.trouble == 2 and time > 0.5:
             raise ValueError("broken axle")
         if self.trouble in {{5, 6, 7, 8, 9}} and time > 0.5 and self.fuse():

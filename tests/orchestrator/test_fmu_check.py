@@ -35,6 +35,14 @@ def test_an_incomplete_state_is_found(fmu):
     assert tried["roll back"].detail.startswith("x is ")
 
 
+def test_inputs_vary_about_their_start_values(fmu):
+    """An FMU that works near them only is a healthy one."""
+    near, _ = verdicts(fmu, step_size=0.01, start_values={"force": 5.0, "trouble": 11})
+    assert {short: item.holds for short, item in near.items()} == dict.fromkeys(others, True)
+    far, _ = verdicts(fmu, step_size=0.01, start_values={"force": 0.0, "trouble": 11})
+    assert "is far from 5 N" in far["vary"].detail
+
+
 @pytest.mark.parametrize(
     ("trouble", "word"),
     [(6, "SIGSEGV"), (9, "x is not finite")],

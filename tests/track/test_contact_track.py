@@ -75,7 +75,7 @@ def test_a_wheel_that_would_start_off_the_rail_is_refused(short):
     track = contact_track(short)
     for told, message in (
         ({"load_change": -1.1 * STATIC_LOAD}, "wheel 1 starts with a load of -11772 N"),
-        ({"load_change": np.nan}, "load nan N and velocity 0 m/s of wheel 1 must be finite"),
+        ({"load_change": np.nan}, "load change nan N and velocity 0 m/s of wheel 1 must be finite"),
         ({"velocity": np.inf}, "and velocity inf m/s of wheel 1 must be finite"),
     ):
         with pytest.raises(ValueError, match=message):

@@ -117,7 +117,8 @@ static rc_masses_state copy(const rc_model *model)
 static rc_status step_masses(rc_model *model, double step, int linear)
 {
     rc_masses *own = model->own;
-    if (rc_check_masses(model, RC_DISCARD) != RC_OK)
+    if (rc_check_masses(model, RC_DISCARD) != RC_OK ||
+        (own->suspension.coupled && rc_check_substeps(model, step, own->substep) != RC_OK))
         return RC_DISCARD;
     memcpy(own->before, model->dynamic, model->dynamic_count * sizeof(double));
     const rc_masses_state at = copy(model);

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#define MOST_SUBSTEPS 1e5 /* of a step; 2 s with the usual substep, the way of a whole passage */
 #define SUBSTEP_ROUNDING 1e-9 /* n longest substeps are n substeps, whatever the rounding */
 
 double rc_element_force(const rc_element *element, double compression, double rate)
@@ -102,6 +103,14 @@ double rc_fastest(const rc_suspension *own)
         fastest = fmax(fastest, rate_of(&own->secondary, frame[j] + upper));
     }
     return fastest;
+}
+
+rc_status rc_check_substeps(rc_model *model, double step, double longest)
+{
+    if (step / longest > MOST_SUBSTEPS)
+        return rc_fail(model, RC_DISCARD, "a step of %g s is more than %g substeps of %g s; use a "
+                                          "shorter step", step, MOST_SUBSTEPS, longest);
+    return RC_OK;
 }
 
 size_t rc_substeps(double duration, double longest)

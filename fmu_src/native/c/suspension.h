@@ -96,6 +96,9 @@ double rc_element_force(const rc_element *element, double compression, double ra
 /* The largest rate of an element between its bodies [1/s]. */
 double rc_fastest(const rc_suspension *own);
 
+/* Refuses a step that takes more substeps than any should. */
+rc_status rc_check_substeps(rc_model *model, double step, double longest);
+
 /* Into how many equal substeps, none above the longest, a duration is divided. */
 size_t rc_substeps(double duration, double longest);
 

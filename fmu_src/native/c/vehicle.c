@@ -7,7 +7,6 @@
 #include "contact.h"
 #include "dense.h"
 
-#define MOST_SUBSTEPS 1e5 /* of a step; 2 s with the usual substep, the way of a whole passage */
 #define INSTANT 1e-6      /* s, over which the rate of a surface is taken at the start */
 
 static const rc_group_kind KINDS[] = {
@@ -110,9 +109,8 @@ static rc_status step_vehicle(rc_model *model, double step, int linear)
     const double *rail = rc_values(model, RAIL_DISPLACEMENT);
     if (check_rail(model, RC_DISCARD) != RC_OK)
         return RC_DISCARD;
-    if (step / own->substep > MOST_SUBSTEPS)
-        return rc_fail(model, RC_DISCARD, "a step of %g s is more than %g substeps of %g s; use a "
-                                          "shorter step", step, MOST_SUBSTEPS, own->substep);
+    if (rc_check_substeps(model, step, own->substep) != RC_OK)
+        return RC_DISCARD;
     const double leading = rc_leading_position(own, *from.start, model->head->time + step);
     if (!isfinite(leading))
         return rc_fail(model, RC_DISCARD, "wheel 1 would be at %g m at %g s; use a lower speed or a "

@@ -176,10 +176,12 @@ void call_start(school *at, pupil *of)
         reset(at, of);
     if (of->is.phase != CREATED)
         return;
+    make_wishes(at, of);
     set_up_and_enter(at, of, draw_once_in(&at->draw, 2) ? 0.0 : draw_share(&at->draw), 0, 0.0);
     if (of->is.phase != INITIALISING)
         return;
-    call_values(at, of);
+    for (size_t i = 1 + draw_below(&at->draw, 3); i > 0; --i)
+        call_values(at, of);
     leave_initialisation(at, of);
 }
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "request.h"
+#include "tables.h"
 
 static int is_time(const school *at, rc_type type, uint32_t variable)
 {
@@ -37,6 +38,20 @@ static void get_values(school *at, pupil *of, rc_type type)
     free_request(&made);
 }
 
+/* What is usual for a variable whose start value is zero. */
+static double order_of(const char *name)
+{
+    static const struct {
+        const char *part;
+        double order;
+    } all[] = {{"force", 1e5},     {"load_change", 1e4}, {"position", 3.0},  {"velocity", 1e-2},
+               {"mass", 100.0},    {"stiffness", 1e7},   {"damping", 1e4},   {"clearance", 1e-4}};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i)
+        if (strstr(name, all[i].part) != NULL)
+            return all[i].order;
+    return 1e-3;
+}
+
 /* A value for a variable: near its start value, or strange. */
 static double draw_value(school *at, rc_type type, uint32_t variable)
 {
@@ -51,23 +66,40 @@ static double draw_value(school *at, rc_type type, uint32_t variable)
     if (type == RC_INTEGER)
         return draw_once_in(from, 4) ? (double)(int32_t)draw_bits(from)
                                      : usual + (double)draw_below(from, 3) - 1.0;
-    if (group->causality == RC_INPUT && usual == 0.0)
-        usual = strstr(group->name, "force") != NULL      ? 1e5
-                : strstr(group->name, "position") != NULL ? 7.0 * draw_share(from)
-                                                          : 1e-3;
+    if (usual == 0.0)
+        usual = order_of(group->name);
+    if (group->causality == RC_INPUT && strstr(group->name, "position") != NULL &&
+        draw_once_in(from, 3))
+        return usual + 6.0 * (draw_share(from) - 0.5); /* the window of an endless track follows */
     return draw_once_in(from, 6) ? draw_near(from, usual) : usual * (0.9 + 0.2 * draw_share(from));
 }
 
-static const char *choose_text(school *at, const char *own)
+/* A table of the kind that a parameter takes, or any. */
+static const char *choose_table(school *at, uint32_t variable)
 {
-    static const char *const words[] = {"linear", "state_dependent", "none", "haversine", "cusp",
-                                        "parabola", "chord", ""};
+    const rc_group *group = rc_group_of(at->model, variable);
+    const char *name = group == NULL ? "" : group->name;
+    const table_kind kind = strcmp(name, "supports") == 0     ? SUPPORT_TABLE
+                            : strcmp(name, "pad") == 0        ? PAD_TABLE
+                            : strcmp(name, "flat.shape") == 0 ? PROFILE_TABLE
+                                                              : SERIES_TABLE;
+    return at->tables[draw_once_in(&at->draw, 4)
+                          ? draw_below(&at->draw, TABLES)
+                          : (size_t)kind + TABLE_KINDS * draw_below(&at->draw, 2)];
+}
+
+static const char *choose_text(school *at, uint32_t variable, const char *own)
+{
+    static const char *const words[] = {"linear",   "state_dependent", "hyperbolic", "none", "cusp",
+                                        "haversine", "parabola",       "chord",      "",
+                                        "suspended", "masses"};
     draw *from = &at->draw;
     switch (draw_below(from, 4)) {
     case 0:
         return own;
     case 1:
-        return at->tables[draw_below(from, TABLES)];
+    case 2:
+        return choose_table(at, variable);
     default:
         return words[draw_below(from, sizeof words / sizeof words[0])];
     }
@@ -119,7 +151,7 @@ static void set_values(school *at, pupil *of, rc_type type)
             made.list.values[i] = draw_value(at, type, made.memory[i]);
             continue;
         }
-        made.list.texts[i] = draw_once_in(&at->draw, 30) ? NULL : choose_text(at, text);
+        made.list.texts[i] = draw_once_in(&at->draw, 30) ? NULL : choose_text(at, made.memory[i], text);
         if (made.list.texts[i] == NULL || strlen(made.list.texts[i]) >= RC_TEXT_SIZE)
             right = MAY_ERROR;
     }

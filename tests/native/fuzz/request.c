@@ -10,8 +10,13 @@ static uint32_t draw_variable(school *at)
         return (uint32_t)draw_bits(from);
     case 1:
         return at->variables + (uint32_t)draw_below(from, 2);
-    default:
-        return (uint32_t)draw_below(from, at->variables);
+    default: {
+        if (draw_once_in(from, 2))
+            return (uint32_t)draw_below(from, at->variables);
+        /* few would be parameters of a whole track, which has hundreds of others */
+        const rc_group *group = rc_group_at(at->model, draw_below(from, rc_group_count(at->model)));
+        return group->first + (uint32_t)draw_below(from, group->count > 0 ? group->count : 1);
+    }
     }
 }
 

@@ -61,7 +61,9 @@ static void find(const resource *of, const char *name, uint64_t *place, uint64_t
 static void alter_values(resource *of, const resource *good, draw *from)
 {
     static const char *const names[] = {"structure", "numbers", "eigenvalues", "inverses", "weight",
-                                        "shape", "flexibility", "start", "sleeper_shape"};
+                                        "shape", "flexibility", "start", "sleeper_shape",
+                                        "inertia", "sleeper_mass", "sleeper_bed", "bent_shape",
+                                        "bent_flexibility"};
     uint64_t place, count;
     const size_t chosen = draw_below(from, sizeof names / sizeof names[0]);
     find(good, names[chosen], &place, &count);

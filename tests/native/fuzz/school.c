@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tables.h"
+
 void blame(const school *at, const char *format, ...)
 {
     va_list arguments;
@@ -100,4 +102,20 @@ void compare(school *at, pupil *of, const knowledge *with)
         if (memcmp(&now[i], &with->outputs[i], sizeof now[i]) != 0)
             blame(at, "output %lu is %.17g, it was %.17g", (unsigned long)at->outputs[i], now[i],
                   with->outputs[i]);
+}
+
+void spoil_tables(school *at)
+{
+    ++at->spoilt;
+    for (size_t i = 0; i + 2 < TABLES; ++i) {
+        if (draw_once_in(&at->draw, 8)) { /* none, for a while */
+            (void)remove(at->tables[i]);
+            continue;
+        }
+        FILE *file = fopen(at->tables[i], "wb");
+        if (file == NULL)
+            blame(at, "%s cannot be written", at->tables[i]);
+        write_table(file, &at->draw, (table_kind)(i % TABLE_KINDS));
+        fclose(file);
+    }
 }

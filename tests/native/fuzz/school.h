@@ -13,7 +13,7 @@
 #define INSTANCES 4
 #define STATES 24
 #define MOST_OUTPUTS 512
-#define TABLES 6 /* files; the last two never exist */
+#define TABLES 10 /* files, two of every kind; the last two never exist */
 
 #define MAY_OK (1u << OK)
 #define MAY_DISCARD (1u << DISCARD)
@@ -100,6 +100,7 @@ void call_step(school *at, pupil *of);
 void call_states(school *at, pupil *of);
 void call_bytes(school *at, pupil *of);
 void call_start(school *at, pupil *of); /* through a whole proper initialisation */
+void make_wishes(school *at, pupil *of); /* parameters of an instance to be initialised */
 void spoil_tables(school *at);
 void leave_school(school *at);
 
