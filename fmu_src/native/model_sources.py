@@ -27,6 +27,7 @@ ON_TRACK = (
     "operator.c",
     "operator_step.c",
     "preloaded_pad.c",
+    "quasi_static.c",
     "rail_point.c",
     "rows.c",
     "static_start.c",
