@@ -124,7 +124,7 @@ def _check_masses(track: Track, laws: SupportLaws, model: Model) -> None:
     if track.ballast_mass == 0.0:
         return
     if model == "modal" and (laws.moving.varies or track.sleeper == "beam"):
-        what = "grows" if laws.moving.varies else "bends with the sleepers"
+        what = "grows" if laws.moving.varies else "lies under sleepers that bend"
         raise InputError(
             f"track.ballast_mass is {track.ballast_mass:g} kg and {what}, which the modal "
             "monolithic solution does not hold: use the full one (--model full)"

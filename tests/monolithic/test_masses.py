@@ -148,7 +148,7 @@ def test_sleepers_that_bend_carry_their_ballast():
         (
             ("track.ballast_mass=40", "track.sleeper=beam"),
             "modal",
-            "40 kg and bends with the sleepers",
+            "40 kg and lies under sleepers that bend",
         ),
         (
             ("track.ballast_mass=40", "track.ballast_pulls=false"),
