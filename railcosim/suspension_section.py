@@ -24,6 +24,13 @@ if TYPE_CHECKING:
 
 BODIES = BodyParameters()
 
+KEYS = {
+    "static_wheel_load": "vehicle.axle_load_t",
+    "wheel_mass": "vehicle.wheel_mass",
+    "tread.mass": "suspension.tread_mass",
+}
+"""Keys of a scenario for the parameters of an FMU that the models' messages name."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Suspension:
@@ -96,7 +103,10 @@ def check_bodies(vehicle: Vehicle, suspension: Suspension) -> None:
             bodies=_bodies(suspension, vehicle.bogies) if vehicle.is_suspended else None,
         ).check_substep(SUBSTEP)
     except ValueError as error:
-        raise InputError(f"vehicle and suspension do not fit together: {error}") from error
+        sentence = str(error)
+        for parameter, key in KEYS.items():
+            sentence = sentence.replace(parameter, key)
+        raise InputError(f"vehicle and suspension do not fit together: {sentence}") from error
 
 
 def _tread(suspension: Suspension) -> Tread | None:

@@ -80,9 +80,12 @@ def test_wheels_run_in_their_bogies():
         ),
         (
             {"vehicle": {"model": "suspended"}, "suspension": {"car_mass": 50e3}},
-            "raise static_wheel_load or give smaller masses",
+            "raise vehicle.axle_load_t or give smaller masses",
         ),
-        ({"suspension": {"tread_mass": 600.0, "tread_stiffness": 1e9}}, "must be below wheel_mass"),
+        (
+            {"suspension": {"tread_mass": 600.0, "tread_stiffness": 1e9}},
+            "suspension.tread_mass is 600 kg; it must be below vehicle.wheel_mass",
+        ),
         ({"suspension": {"tread_mass": 300.0}}, "a flexible wheelset needs its stiffness"),
     ],
 )
