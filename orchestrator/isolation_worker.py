@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 from collections.abc import Callable
 from math import isnan
 
@@ -165,6 +166,8 @@ def main() -> None:
     os.dup2(nothing, 0)
     os.dup2(2, 1)
     serve(lambda size: os.read(source, size), lambda data: os.write(sink, data))
+    sys.stderr.flush()
+    os._exit(0)  # leaves out the ends of FMUs' libraries: some crash there, as those of pythonfmu
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from fmu_src.python import library_end
+from orchestrator.isolation_setup import IsolationSetup
 
 SOURCE = Path(__file__).with_name("unforgiving.c")
 PROGRAM = """
@@ -52,6 +53,35 @@ def test_without_that_the_library_uses_memory_that_is_free(small_fmus, unforgivi
     done = end_of_process(program, [small_fmus.track], unforgiving)
     assert done.stdout == "done\n"
     assert done.returncode < 0
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the loader of Linux")
+@pytest.mark.parametrize("program", ["main()", "serve(*streams())"], ids=["isolated", "by itself"])
+def test_a_process_of_an_isolated_fmu_leaves_out_the_end_of_its_library(
+    program, small_fmus, unforgiving
+):
+    """So that FMUs that pythonfmu has made for others end well, too; `serve` alone does not."""
+    setup = IsolationSetup(path=str(small_fmus.track), name="track").write()
+    told = f"""
+import atexit, os
+atexit.register = lambda *_: None
+from orchestrator.frames import write_frame
+from orchestrator.isolation_worker import main, serve
+there, here = os.pipe()
+write_frame(lambda data: os.write(here, data), [{setup!r}])
+os.close(here)
+os.dup2(there, 0)
+streams = lambda: (lambda size: os.read(0, size), lambda data: os.write(1, data))
+{program}
+"""
+    ended = subprocess.run(
+        [sys.executable, "-c", told],
+        env={"LD_PRELOAD": str(unforgiving), "OPENBLAS_NUM_THREADS": "1"},
+        cwd=Path(__file__).parents[2],
+        check=False,
+        capture_output=True,
+    )
+    assert (ended.returncode == 0) == (program == "main()"), ended.stderr
 
 
 def test_the_end_is_left_to_a_thread_that_runs_python_itself(monkeypatch):
