@@ -17,7 +17,7 @@ from .assembly import IntArray
 from .beam_element import FloatArray
 from .pad_memory import PadMemory
 from .preloaded_pad import PreloadedPad
-from .support_factors import SupportFactors
+from .whole_pad import WholePad
 
 SMALL = 1e-4
 """Ratio of step and relaxation time below which the derivative of phi is its series."""
@@ -31,7 +31,7 @@ class _Branch(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ViscoelasticPads:
+class ViscoelasticPads(WholePad):
     """Increment ``f_k F(x) + s - k x - c x'`` of pads with a Maxwell branch, Eq. (20).
 
     By itself it is the law of slow motion, in which the branch is a dashpot, ``s = f_c c1 x'``;
@@ -43,10 +43,8 @@ class ViscoelasticPads:
     ----------
     pad : PreloadedPad
         The nominal pad.
-    linear_stiffness, linear_damping : float
-        Of the pads in the modal model, ``k`` and ``c`` [N/m], [N s/m].
-    factors : SupportFactors
-        Of the supports.
+    linear_stiffness, linear_damping, factors
+        See `WholePad`.
     step_size : float
         Of the step [s]; 0 for slow motion.
     memory : PadMemory, optional
@@ -54,47 +52,13 @@ class ViscoelasticPads:
     """
 
     pad: PreloadedPad
-    linear_stiffness: float
-    linear_damping: float
-    factors: SupportFactors
     step_size: float = 0.0
     memory: PadMemory | None = None
-
-    @property
-    def stiff(self) -> bool:
-        """Yes; see `ComponentLaw.stiff`."""
-        return True
-
-    def moved(self, first: int, count: int) -> ViscoelasticPads:
-        """Return the law of other supports; see `ComponentLaw.moved`."""
-        return replace(self, factors=self.factors.window(first, count))
-
-    def force(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
-        """Force increment [N]; see `ComponentLaw.force`."""
-        total, _, _ = self._total(deformation, rate, support)
-        return total - self.linear_stiffness * deformation - self.linear_damping * rate
-
-    def stiffness(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
-        """Derivative by the deformation [N/m]; see `ComponentLaw.stiffness`."""
-        _, by_deformation, _ = self._total(deformation, rate, support)
-        return by_deformation - self.linear_stiffness
-
-    def damping(self, deformation: FloatArray, rate: FloatArray, support: IntArray) -> FloatArray:
-        """Derivative by the rate [N s/m]; see `ComponentLaw.damping`."""
-        _, _, by_rate = self._total(deformation, rate, support)
-        return by_rate - self.linear_damping
 
     def during(self, step_size: float, memory: PadMemory) -> ViscoelasticPads:
         """Return the law over a step; see `ComponentLaw.during`."""
         copies = PadMemory(*(values.copy() for values in memory))
-        return ViscoelasticPads(
-            pad=self.pad,
-            linear_stiffness=self.linear_stiffness,
-            linear_damping=self.linear_damping,
-            factors=self.factors,
-            step_size=step_size,
-            memory=copies,
-        )
+        return replace(self, step_size=step_size, memory=copies)
 
     def remembered(
         self, deformation: FloatArray, rate: FloatArray, support: IntArray
@@ -110,10 +74,10 @@ class ViscoelasticPads:
         loose = self.factors.fastened[support] == 0.0
         return np.where(loose & ~(deformation > 0.0), 0.0, deformation)
 
-    def _total(
+    def total(
         self, deformation: FloatArray, rate: FloatArray, support: IntArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Whole force and its derivatives by deformation and rate."""
+        """Whole force and its derivatives; see `WholePad.total`."""
         factors = self.factors
         loose = factors.fastened[support] == 0.0
         x = self._compression(deformation, support)
